@@ -1,0 +1,46 @@
+// The part of the model that one rank computes.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "communicator.hpp"
+#include "elements/element_group.hpp"
+#include "halo.hpp"
+#include "model/model.hpp"
+
+namespace balocco {
+
+/// An undirected graph in compressed rows, with a weight for each vertex.
+struct Graph {
+  std::vector<std::int64_t> first;      // vertices + 1
+  std::vector<std::int64_t> neighbour;
+  std::vector<std::int64_t> weight;
+};
+
+/// Assigns each vertex of a graph to one of `parts`. Deterministic: every rank computes the same. Tests inject their own.
+using Partitioner = std::function<std::vector<std::int32_t>(const Graph&, int parts)>;
+std::vector<std::int32_t> metis_partition(const Graph& graph, int parts);
+
+/// Local nodes: those of the rank's elements, and the reference node of every rigid body (on every rank). They are numbered for
+/// locality; elements are sorted to follow.
+struct Domain {
+  std::vector<std::int32_t> node_row;   // local node -> model row
+  std::vector<std::int32_t> local_node;  // model row -> local node, -1: not on this rank
+  std::vector<bool> owned;              // per local node: exactly one copy of each node is owned
+  std::vector<GroupInput> groups;       // elements of this rank by table and section, in table order (no MASS, ROTARYI)
+  std::unique_ptr<Halo> halo;
+
+  std::int32_t size() const { return static_cast<std::int32_t>(node_row.size()); }
+  std::int32_t scratch_node() const { return size(); }
+};
+
+/// Cost of an element in the explicit loop relative to a C3D8R = 100, by type: the partition's weights.
+std::int64_t element_cost(const ElementType& type);
+
+Domain make_domain(const Model& model, const Communicator& communicator, const Partitioner& partitioner = metis_partition);
+
+}  // namespace balocco

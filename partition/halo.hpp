@@ -1,0 +1,43 @@
+// Halo exchange: every copy of a shared node ends with the sum of the contributions of all ranks, bit for bit the same.
+#pragma once
+
+#include <mpi.h>
+
+#include <cstdint>
+#include <vector>
+
+#include "communicator.hpp"
+
+namespace balocco {
+
+/// Local nodes shared with one neighbour, in the same (global) order on both sides.
+struct SharedNodes {
+  int rank = -1;
+  std::vector<std::int32_t> nodes;
+};
+
+/// Sums of nodal vectors (4 doubles a node, of which the first 3 travel) over the copies of shared nodes. Addends must be rounded
+/// with the node's rounding constant, so that the sum is exact and every copy holds the same bits. Requests are persistent:
+/// a cycle allocates nothing.
+class Halo {
+ public:
+  Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours);
+  ~Halo();
+  Halo(const Halo&) = delete;
+  Halo& operator=(const Halo&) = delete;
+
+  const std::vector<SharedNodes>& neighbours() const { return neighbours_; }
+
+  /// Packs the partial sums of shared nodes and starts the messages. Later additions by this rank to shared nodes must be
+  /// made alike on every copy.
+  void begin_sum(const double* values);
+  /// Waits and adds what the neighbours sent.
+  void finish_sum(double* values);
+
+ private:
+  std::vector<SharedNodes> neighbours_;
+  std::vector<std::vector<double>> outgoing_, incoming_;
+  std::vector<MPI_Request> requests_;  // receives, then sends
+};
+
+}  // namespace balocco

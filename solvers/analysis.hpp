@@ -1,0 +1,62 @@
+// What every procedure works on for the life of a run on one rank: domain, element groups, contact, state.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "communicator.hpp"
+#include "domain.hpp"
+#include "elements/pressure_faces.hpp"
+#include "model/model.hpp"
+#include "model/results.hpp"
+#include "model/state.hpp"
+#include "rigid_contact.hpp"
+
+namespace balocco {
+
+class Analysis : public ResultSource {
+ public:
+  /// Builds groups, masses, contact and the undeformed state. @throws InputError on every rank alike.
+  Analysis(const Model& model, const Communicator& communicator, const Partitioner& partitioner = metis_partition);
+
+  const Model& model;
+  const Communicator& communicator;
+  Domain domain;
+  std::vector<std::unique_ptr<ElementGroup>> element_groups;
+  std::vector<RigidContact> contacts;              // per Model::contact_pairs
+  std::vector<std::unique_ptr<PressureFaces>> pressure_faces;  // per Model::surfaces, null where no step presses on it
+  std::vector<double> nodal_mass;                  // per local node, summed over ranks (order-free), MASS elements included
+  std::vector<double> nodal_damping;               // per local node: sum of alpha * mass
+  State current;
+
+  /// Attaches and releases what the step says, from where the nodes stand; marks dofs. Called when a step starts afresh.
+  void apply_attachments(const Step& step);
+  /// Body that carries a local node, or -1. Reference nodes are not carried.
+  std::int32_t carrier(std::int32_t local_node) const { return carrier_[local_node]; }
+  /// Body whose reference node is this local node, or -1.
+  std::int32_t reference_of(std::int32_t local_node) const { return reference_of_[local_node]; }
+  /// Rebuilds carrier() from the state: after attachments, and after a checkpoint was read.
+  void index_rigid_nodes();
+  /// Puts the carried nodes where their bodies are.
+  void place_rigid_nodes(std::vector<double>& position) const;
+
+  /// Accelerations and net nodal forces of the last increment, set by the procedures for output. A, RF = -(external loads + internal).
+  std::vector<double> acceleration;    // 4 a node
+  std::vector<double> reaction;        // 4 a node: force that constraints exert
+  std::vector<std::array<double, 6>> body_reaction;      // per rigid body: reaction force and moment at the reference node
+  std::vector<Point> body_angular_acceleration;          // per rigid body
+
+  const State& state() const override { return current; }
+  std::span<const std::unique_ptr<ElementGroup>> groups() const override { return element_groups; }
+  int nodal_components(std::string_view variable) const override;
+  void nodal(std::string_view variable, std::span<double> values) const override;
+  EnergyBalance energies() const override;
+  ContactResultant contact(std::int32_t pair) const override;
+
+ private:
+  std::vector<std::int32_t> carrier_, reference_of_;
+};
+
+}  // namespace balocco

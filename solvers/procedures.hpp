@@ -1,0 +1,17 @@
+// The procedures: each advances the state of an analysis through one step, from wherever in the step the state stands.
+#pragma once
+
+#include "analysis.hpp"
+#include "model/results.hpp"
+
+namespace balocco {
+
+enum class Outcome { finished, stopped };
+
+/// Newton's method with automatic increments. @throws AnalysisError when an increment does not converge at the smallest size.
+Outcome run_static_step(Analysis& analysis, const Step& step, Observer& observer);
+
+/// Half-step central difference. @throws AnalysisError when an element inverts or the run blows up.
+Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observer);
+
+}  // namespace balocco

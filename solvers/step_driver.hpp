@@ -1,0 +1,22 @@
+// Values of boundary conditions and loads over a step, the same for every procedure.
+#pragma once
+
+#include <vector>
+
+#include "analysis.hpp"
+
+namespace balocco {
+
+/// Factor on a load's magnitude at `step_time`: its amplitude's value, or the procedure's default (static: ramp; explicit: 1).
+double amplitude_factor(const Model& model, const Step& step, std::int32_t amplitude, double step_time, double total_time);
+
+/// Magnitude of a load that stood at `previous` when the step started.
+double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,
+                      double step_time, double total_time);
+
+/// Adds concentrated loads (owners only), pressure and gravity at `step_time` to `force` (4 a node, rounded), and moments on
+/// reference nodes to `moments` (per rigid body; every rank computes the same).
+void add_external_forces(const Analysis& analysis, const Step& step, double step_time, double total_time,
+                         const double* position, double* force, std::vector<Point>& moments);
+
+}  // namespace balocco

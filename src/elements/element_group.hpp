@@ -1,0 +1,113 @@
+// The elements of one type and one section on one rank, and the one force kernel that every solver drives.
+//
+// Nodal arrays are local to the rank and hold 4 doubles a node: x, y, z and a fourth that is zero, except in `force`, where the
+// fourth is the node's rounding constant (math/exact_sum.hpp): a kernel adds rounded(f, force[4 * node + 3]) and never
+// changes the fourth. Elements are padded to whole packs; padded lanes repeat a real element and add their force to the
+// scratch node behind the last real one.
+//
+// History is a structure of arrays, history[component * padded_size() + element]. Reference configuration of every kernel is
+// Model::nodes.coordinates (total Lagrangian).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace balocco {
+
+struct GroupInput {
+  const Model& model;
+  std::int32_t table = -1;                 // Model::elements[table]
+  std::int32_t section = -1;               // Model::sections[section]
+  std::vector<std::int32_t> rows;          // rows in the table; those that touch nodes shared with other ranks come first
+  std::int32_t interface_count = 0;        // how many of `rows` touch shared nodes
+  std::vector<std::int32_t> connectivity;  // local nodes, in the order of `rows`
+  std::int32_t scratch_node = 0;           // local node that padded lanes may write to
+};
+
+/// What an explicit cycle hands to the kernels.
+struct ExplicitCycle {
+  const double* position = nullptr;  // at the end of the increment
+  const double* velocity = nullptr;  // over the increment (half step)
+  double* force = nullptr;           // INTERNAL force is SUBTRACTED: force accumulates external - internal
+  double increment = 0.0;            // time over which the positions moved; 0: none yet (no rate effects)
+  double linear_bulk_viscosity = 0.0, quadratic_bulk_viscosity = 0.0;
+};
+
+/// The smallest stable increment of a range of elements and who governs it.
+struct StableIncrement {
+  double increment = 1e300;
+  std::int32_t element = -1;  // index in the group
+
+  void merge(const StableIncrement& other) {
+    if (other.increment < increment) *this = other;
+  }
+};
+
+/// Energy of one element, in all.
+struct ElementEnergies {
+  double strain = 0.0;      // recoverable
+  double hourglass = 0.0;   // artificial
+  double viscous = 0.0;     // dissipated by bulk viscosity and stiffness-proportional damping
+  double plastic = 0.0;     // dissipated by plasticity
+};
+
+enum class Portion { interface, interior };
+
+class ElementGroup {
+ public:
+  explicit ElementGroup(const GroupInput& input);
+  virtual ~ElementGroup() = default;
+
+  std::int32_t table() const { return table_; }
+  std::int32_t section() const { return section_; }
+  std::int32_t size() const { return size_; }
+  std::int32_t padded_size() const { return padded_size_; }
+  /// Element of the table that lane `element` < padded_size() computes.
+  std::int32_t row(std::int32_t element) const { return rows_[element]; }
+  std::span<const std::int32_t> nodes(std::int32_t element) const {
+    return {connectivity_.data() + element * nodes_per_element_, static_cast<std::size_t>(nodes_per_element_)};
+  }
+  int nodes_per_element() const { return nodes_per_element_; }
+
+  /// Doubles of history an element carries, and their values in the undeformed state.
+  virtual int history_size() const = 0;
+  virtual void initialize_history(std::span<double> history) const = 0;
+
+  /// Lumped mass of each node of an element (unscaled sum = density x reference volume).
+  virtual void lumped_mass(std::int32_t element, std::span<double> mass) const = 0;
+
+  /// Adds external - internal forces of a portion of the elements, updates their history in place and returns the smallest
+  /// stable increment (2 / omega_max of a free element, with damping). Nothing allocates, throws or branches per element.
+  virtual StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const = 0;
+
+  /// Internal force of one element (3 a node) at `position`, its exact derivative (row-major, square) unless `stiffness` is
+  /// empty, and the history after an increment that started from `old_history`. Static: no rate effects.
+  /// @return false if the element is inverted (a Jacobian <= 0), with outputs unspecified.
+  virtual bool linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+                         std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const = 0;
+
+  virtual ElementEnergies energies(std::int32_t element, const double* position, std::span<const double> history) const = 0;
+
+  /// Number of components of an output variable (S 6, LE 6, MISES 1, SENER 1, STH 1 ...), 0 where the element has none.
+  virtual int output_components(std::string_view variable) const = 0;
+  /// Values of a variable at one integration point, tensors in order 11 22 33 12 13 23.
+  virtual void output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+                      std::span<const double> history, std::span<double> values) const = 0;
+  virtual int integration_points() const = 0;
+
+  /// Size of the force kernel's reference data, for the memory estimate.
+  virtual std::size_t bytes_per_element() const = 0;
+
+ protected:
+  std::int32_t table_, section_, size_, padded_size_, interface_padded_;
+  int nodes_per_element_;
+  std::vector<std::int32_t> rows_;          // padded
+  std::vector<std::int32_t> connectivity_;  // padded, scratch node never inside: padded lanes GATHER from a real element
+  std::vector<std::int32_t> scatter_;       // as connectivity_, but padded lanes point to the scratch node
+};
+
+}  // namespace balocco

@@ -1,0 +1,39 @@
+// The register of element types. Adding one = its own header and source file in this folder, ending in one line:
+//   static const RegisterElement registered({.name = "C3D8R", ...});
+#pragma once
+
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "elements/element_group.hpp"
+#include "model/model.hpp"
+
+namespace balocco {
+
+enum class Shape { point, line, triangle, quadrilateral, wedge, hexahedron };
+
+struct ElementType {
+  std::string name;  // as the deck says it, upper case
+  Shape shape = Shape::point;
+  int nodes = 1;
+  int integration_points = 1;
+  Section::Kind section = Section::Kind::solid;
+  /// Local node numbers of each face, counter-clockwise seen from outside (membranes: SPOS then SNEG).
+  std::vector<std::vector<int>> faces;
+  /// Builds the force kernel of one section's elements on one rank; null for MASS and ROTARYI, which only carry inertia.
+  std::unique_ptr<ElementGroup> (*make_group)(const GroupInput&) = nullptr;
+};
+
+/// The type of that name (upper case), or nullptr.
+const ElementType* find_element_type(std::string_view name);
+
+/// All registered types, sorted by name: for messages that name the nearest known word.
+std::vector<const ElementType*> element_types();
+
+struct RegisterElement {
+  explicit RegisterElement(ElementType type);
+};
+
+}  // namespace balocco

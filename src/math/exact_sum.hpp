@@ -1,0 +1,67 @@
+// Sums that do not depend on the order of their addends, hence not on the number of ranks.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <span>
+
+namespace balocco {
+
+/// The constant M = 1.5 * 2^52 * q for the smallest power of two q >= 2^-51 * `largest_sum`. Every addend rounded with it is
+/// a multiple of q, so adding is exact, hence associative, as long as every partial sum stays below 2 * `largest_sum`.
+inline double rounding_constant(double largest_sum) {
+  int exponent = 0;
+  std::frexp(largest_sum, &exponent);
+  return std::ldexp(1.5, exponent - 51 + 52);
+}
+
+/// `addend` rounded to a multiple of the quantum that belongs to `constant` = rounding_constant(...).
+template <class T>
+T rounded(const T& addend, const T& constant) {
+  return (addend + constant) - constant;
+}
+
+/// Exact sum of any doubles (Kulisch's long accumulator): order-free, no scale to choose, about 5 ns an addend. For energies
+/// and resultants; the words of two accumulators may be added as integers (MPI_SUM) to merge them.
+class ExactSum {
+ public:
+  static constexpr int word_count = 70;  // 32-bit digits that cover 2^-1074 .. 2^1024, with room for carries
+
+  void add(double addend) {
+    if (addend == 0.0) return;
+    int exponent = 0;
+    const double fraction = std::frexp(addend, &exponent);  // |fraction| in [0.5, 1)
+    const auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
+    const int lowest_bit = exponent - 53 + bias;
+    const int shift = lowest_bit % 32;
+    auto* word = words_.data() + lowest_bit / 32;
+    const auto magnitude = static_cast<unsigned __int128>(mantissa < 0 ? -mantissa : mantissa) << shift;
+    const std::int64_t sign = mantissa < 0 ? -1 : 1;
+    word[0] += sign * static_cast<std::int64_t>(static_cast<std::uint32_t>(magnitude));
+    word[1] += sign * static_cast<std::int64_t>(static_cast<std::uint32_t>(magnitude >> 32));
+    word[2] += sign * static_cast<std::int64_t>(static_cast<std::uint32_t>(magnitude >> 64));
+  }
+
+  void clear() { words_.fill(0); }
+  std::span<std::int64_t, word_count> words() { return words_; }
+
+  /// The sum, rounded once. Exact to 1 unit in the last place of a double.
+  double value() const {
+    auto digits = words_;
+    for (int i = 0; i + 1 < word_count; ++i) {  // carry so that every digit but the last lies in [-2^31, 2^31)
+      const std::int64_t carry = (digits[i] + (std::int64_t{1} << 31)) >> 32;
+      digits[i] -= carry << 32;
+      digits[i + 1] += carry;
+    }
+    double sum = 0.0;
+    for (int i = word_count - 1; i >= 0; --i) sum += std::ldexp(static_cast<double>(digits[i]), 32 * i - bias);
+    return sum;
+  }
+
+ private:
+  static constexpr int bias = 1152;  // a multiple of 32 beyond the lowest bit of a subnormal double
+  std::array<std::int64_t, word_count> words_{};
+};
+
+}  // namespace balocco

@@ -1,0 +1,54 @@
+#include "model/model.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+std::string Model::where(Location location) const {
+  if (location.file < 0) return name;
+  return fmt::format("{}:{}", files[location.file], location.line);
+}
+
+namespace {
+
+/// The interval of `points` that holds `time`, and the fraction of it that has passed; clamped at both ends.
+struct Interval {
+  std::size_t index;
+  double fraction;
+};
+
+Interval locate(const std::vector<std::array<double, 2>>& points, double time) {
+  if (time <= points.front()[0]) return {0, 0.0};
+  if (time >= points.back()[0]) return {points.size() - 2, 1.0};
+  const auto after = std::upper_bound(points.begin(), points.end(), time, [](double t, const auto& p) { return t < p[0]; });
+  const auto index = static_cast<std::size_t>(after - points.begin()) - 1;
+  return {index, (time - points[index][0]) / (points[index + 1][0] - points[index][0])};
+}
+
+}  // namespace
+
+double Amplitude::value(double time) const {
+  if (kind == Kind::periodic) {
+    if (time < start) return initial;
+    double sum = initial;
+    for (std::size_t n = 0; n < harmonics.size(); ++n) {
+      const double phase = static_cast<double>(n + 1) * circular_frequency * (time - start);
+      sum += harmonics[n][0] * std::cos(phase) + harmonics[n][1] * std::sin(phase);
+    }
+    return sum;
+  }
+  if (points.size() == 1) return points[0][1];
+  const auto [index, s] = locate(points, time);
+  const double weight = kind == Kind::smooth_step ? s * s * s * (10.0 - s * (15.0 - 6.0 * s)) : s;
+  return points[index][1] + weight * (points[index + 1][1] - points[index][1]);
+}
+
+InputError::InputError(std::vector<std::string> messages)
+    : std::runtime_error(messages.empty() ? "bad input" : messages.front()), messages_(std::move(messages)) {}
+
+}  // namespace balocco

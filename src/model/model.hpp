@@ -1,0 +1,229 @@
+// What a deck says, as plain data in deck order: no MPI, no PETSc, no HDF5, no deck syntax. Rows (0-based indices into the
+// tables) are used everywhere; the ids of the deck live only in the tables. Units are whatever the deck uses, consistently.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "model/step.hpp"
+
+namespace balocco {
+
+struct ElementType;  // elements/element_type.hpp
+
+/// Where in which file of Model::files something was said. `file` < 0: nowhere (made by the program).
+struct Location {
+  std::int32_t file = -1;
+  std::int32_t line = 0;
+};
+
+using Point = std::array<double, 3>;
+
+struct NodeTable {
+  std::vector<std::int64_t> id;
+  std::vector<Point> coordinates;
+  std::vector<Location> location;
+  std::unordered_map<std::int64_t, std::int32_t> row_of_id;
+
+  std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
+};
+
+/// All elements of one type. `connectivity` holds node rows, nodes_per_element at a time; `section` indexes Model::sections.
+struct ElementTable {
+  const ElementType* type = nullptr;
+  std::vector<std::int64_t> id;
+  std::vector<std::int32_t> connectivity;
+  std::vector<std::int32_t> section;
+  std::vector<Location> location;
+
+  std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
+};
+
+/// An element of the model: the table of its type and its row there.
+struct ElementRef {
+  std::int32_t table = -1;
+  std::int32_t row = -1;
+  friend auto operator<=>(const ElementRef&, const ElementRef&) = default;
+};
+
+struct NodeSet {
+  std::string name;
+  std::vector<std::int32_t> nodes;  // sorted rows without repetition, unless the deck said UNSORTED
+};
+
+struct ElementSet {
+  std::string name;
+  std::vector<ElementRef> elements;  // sorted, without repetition
+};
+
+/// A face of a solid (S1..S6: face 0..5), or a side of a membrane or shell (face 0: SPOS, 1: SNEG).
+struct FaceRef {
+  ElementRef element;
+  std::int32_t face = 0;
+};
+
+/// One piece of the profile of an analytical rigid surface, in the profile plane (first, second local coordinate): a straight
+/// line, or an arc of the given centre and of radius |start - centre|, turning left (counter-clockwise) or right.
+struct ProfileSegment {
+  enum class Kind { line, arc } kind = Kind::line;
+  std::array<double, 2> start{}, end{}, centre{};
+  bool counter_clockwise = false;
+};
+
+/// *SURFACE, TYPE=CYLINDER (profile extruded along the third axis), REVOLUTION (profile (r, z) revolved about the second axis) or
+/// SEGMENTS (as CYLINDER in the global x, y plane). The outward normal is to the LEFT of the direction in which the profile runs.
+struct AnalyticalSurface {
+  enum class Kind { extruded, revolved } kind = Kind::extruded;
+  Point origin{};
+  std::array<Point, 3> axes{};  // orthonormal: first and second profile direction, and third
+  std::vector<ProfileSegment> profile;  // connected; corners already rounded by FILLET RADIUS
+};
+
+struct Surface {
+  enum class Kind { element_faces, nodes, analytical } kind = Kind::element_faces;
+  std::string name;
+  std::vector<FaceRef> faces;
+  std::vector<std::int32_t> nodes;
+  std::optional<AnalyticalSurface> analytical;
+  Location location;
+};
+
+struct Material {
+  std::string name;
+  double density = 0.0;          // 0: not given
+  double damping_alpha = 0.0;    // mass-proportional Rayleigh damping, 1/time
+  double damping_beta = 0.0;     // stiffness-proportional Rayleigh damping, time
+  std::string law;               // name in the register of materials/material_law.hpp; empty: none given
+  std::vector<double> parameters;  // in the order in which the law declares them
+  Location location;
+};
+
+/// *ORIENTATION: local directions at a point. Rectangular: `axes` as they are. Cylindrical: radial, tangential, axial about the
+/// line through `origin` along axes[2]. `additional_rotation` (radians) about local axis `rotation_axis` (0-based).
+struct Orientation {
+  enum class System { rectangular, cylindrical } system = System::rectangular;
+  std::string name;
+  Point origin{};
+  std::array<Point, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  int rotation_axis = 0;  // membranes: the axis nearest the normal; the next axis (cyclic), projected, is local direction 1
+  double additional_rotation = 0.0;
+};
+
+/// *TRANSFORM: nodal degrees of freedom of a set count along these directions (same meaning as in Orientation).
+struct NodalTransform {
+  std::vector<std::int32_t> nodes;
+  Orientation directions;
+};
+
+/// One ply of a composite membrane: `angle` (radians) from the first local direction to the ply's first direction.
+struct Ply {
+  double thickness = 0.0;
+  std::int32_t material = -1;
+  double angle = 0.0;
+};
+
+enum class HourglassControl { enhanced, stiffness };
+
+struct Section {
+  enum class Kind { solid, membrane, truss, mass, rotary_inertia } kind = Kind::solid;
+  std::string element_set;
+  std::int32_t material = -1;     // -1: none, or composite
+  std::int32_t orientation = -1;  // row of Model::orientations, -1: the default directions
+  double thickness = 1.0;         // membranes: total thickness
+  double area = 1.0;              // trusses
+  std::vector<Ply> plies;         // composite membranes
+  HourglassControl hourglass = HourglassControl::enhanced;
+  double hourglass_scale = 1.0;
+  double mass = 0.0;                    // MASS elements
+  std::array<double, 6> inertia{};      // ROTARYI: I11 I22 I33 I12 I13 I23 about the node
+  Location location;
+};
+
+/// *RIGID BODY. Node rows; elements of an element set contribute their nodes (to `tie_nodes`) and their mass.
+struct RigidBody {
+  std::string name;  // "RIGID-<reference node id>"
+  std::int32_t reference_node = -1;
+  bool at_center_of_mass = false;
+  std::vector<std::int32_t> tie_nodes;
+  std::vector<std::int32_t> pin_nodes;
+  std::vector<ElementRef> elements;
+  std::int32_t analytical_surface = -1;  // row of Model::surfaces
+  Location location;
+};
+
+/// *AMPLITUDE. `value(t)` is a factor on the magnitude of whatever refers to it.
+struct Amplitude {
+  enum class Kind { tabular, smooth_step, periodic } kind = Kind::tabular;
+  std::string name;
+  bool total_time = false;
+  std::vector<std::array<double, 2>> points;     // (time, value); tabular and smooth step
+  double circular_frequency = 0.0, start = 0.0, initial = 0.0;  // periodic
+  std::vector<std::array<double, 2>> harmonics;  // periodic: (A cos, B sin)
+
+  double value(double time) const;
+};
+
+/// *SURFACE INTERACTION with its options.
+struct Interaction {
+  std::string name;
+  double friction = 0.0;
+  double penalty_scale = 1.0;             // multiplies the automatic normal stiffness
+  std::optional<double> elastic_slip;     // slip at which sticking friction reaches its limit; none: automatic
+  Location location;
+};
+
+/// A contact pair: nodes of `slave` may not penetrate `master`.
+struct ContactPair {
+  std::int32_t slave = -1, master = -1;  // rows of Model::surfaces
+  std::int32_t interaction = -1;
+  std::int32_t first_step = 0;           // pairs declared inside a step begin there
+  Location location;
+};
+
+/// *INITIAL CONDITIONS. They take effect when the first dynamic step starts, on the positions found by the steps before.
+struct InitialVelocity {
+  enum class Kind { translation, rotation } kind = Kind::translation;
+  std::vector<std::int32_t> nodes;
+  Point velocity{};            // translation
+  double angular_speed = 0.0;  // rotation about the axis through `axis_point` along `axis_direction` (unit)
+  Point axis_point{}, axis_direction{};
+  Location location;
+};
+
+struct Units {
+  std::string length, mass, time;  // empty: not declared
+};
+
+struct Model {
+  std::string name;  // the job's name: the deck's file name without folder and extension
+  std::string heading;
+  std::string deck_sha256;
+  Units units;
+  std::vector<std::string> files;  // the deck and what it includes
+
+  NodeTable nodes;
+  std::vector<ElementTable> elements;
+  std::vector<NodeSet> node_sets;
+  std::vector<ElementSet> element_sets;
+  std::vector<Surface> surfaces;
+  std::vector<Material> materials;
+  std::vector<Orientation> orientations;
+  std::vector<NodalTransform> transforms;
+  std::vector<Section> sections;
+  std::vector<RigidBody> rigid_bodies;
+  std::vector<Amplitude> amplitudes;
+  std::vector<Interaction> interactions;
+  std::vector<ContactPair> contact_pairs;
+  std::vector<InitialVelocity> initial_velocities;
+  std::vector<Step> steps;
+
+  /// "FILE:LINE" for messages.
+  std::string where(Location location) const;
+};
+
+}  // namespace balocco

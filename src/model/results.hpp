@@ -1,0 +1,83 @@
+// The seam between solvers and whoever writes results. Solvers know no file: they call an Observer, which asks the
+// ResultSource for what it wants to write. Both are plain interfaces so that `io` and `solvers` never see each other.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "elements/element_group.hpp"
+#include "model/model.hpp"
+#include "model/state.hpp"
+
+namespace balocco {
+
+/// Energies of the whole model (all ranks), Abaqus's names. total = kinetic + internal + viscous + friction - work stays constant.
+struct EnergyBalance {
+  double kinetic = 0.0;     // ALLKE
+  double internal = 0.0;    // ALLIE = strain + hourglass + plastic + contact (penalty springs)
+  double strain = 0.0;      // ALLSE
+  double plastic = 0.0;     // ALLPD
+  double viscous = 0.0;     // ALLVD: bulk viscosity and Rayleigh damping
+  double hourglass = 0.0;   // ALLAE
+  double friction = 0.0;    // ALLFD
+  double contact = 0.0;     // ALLCW: stored in contact springs
+  double work = 0.0;        // ALLWK: external
+  double total = 0.0;       // ETOTAL
+};
+
+/// Resultant of one contact pair on the slave surface, global directions.
+struct ContactResultant {
+  Point normal_force{};      // CFN
+  Point friction_force{};    // CFT
+  Point moment{};            // CM, about the global origin
+  double area = 0.0;         // CAREA: tributary area of the nodes in contact
+  Point center{};            // XN: centre of pressure
+  double greatest_penetration = 0.0;
+};
+
+/// What a running analysis can be asked for. Functions marked collective must be called by every rank.
+class ResultSource {
+ public:
+  virtual ~ResultSource() = default;
+  virtual const State& state() const = 0;
+  virtual std::span<const std::unique_ptr<ElementGroup>> groups() const = 0;
+  /// Components of a nodal variable: U V A RF (3), UR VR AR RM (3, only reference nodes of rigid bodies are not zero),
+  /// CPRESS COPEN (1), CSHEAR CSLIP (1), CNORMF CSHEARF (3); 0 where unknown.
+  virtual int nodal_components(std::string_view variable) const = 0;
+  /// Values on the local nodes, `components` a node, the same bits on every copy.
+  virtual void nodal(std::string_view variable, std::span<double> values) const = 0;
+  virtual EnergyBalance energies() const = 0;                               // collective
+  virtual ContactResultant contact(std::int32_t pair) const = 0;            // collective
+};
+
+/// Where a procedure stands after an increment.
+struct Progress {
+  std::int64_t increment = 0;          // in the step
+  double step_time = 0.0, total_time = 0.0;
+  double time_increment = 0.0;
+  std::int64_t critical_element = -1;  // id of the element that governs the increment (explicit), else -1
+  int iterations = 0;                  // Newton iterations of the increment (implicit)
+  double largest_residual = 0.0;       // at convergence (implicit)
+  bool step_finished = false;
+};
+
+class Observer {
+ public:
+  virtual ~Observer() = default;
+  /// Before the first increment of a step (also when restarted in its middle): the source is complete and at rest. Collective.
+  virtual void step_started(const ResultSource& source, std::int32_t step) = 0;
+  /// Called by every rank after every static increment, and after an explicit increment once step_time >= next_due() and at the
+  /// end of the step. @return false to stop the run (a checkpoint has been written). Collective.
+  virtual bool advanced(const ResultSource& source, const Progress& progress) = 0;
+  /// Step time at which the observer next wants to be called; explicit increments are not shortened for it.
+  virtual double next_due() const = 0;
+  /// A line for the log and the terminal: convergence, warnings. The root rank writes it.
+  virtual void log(const std::string& line) = 0;
+};
+
+}  // namespace balocco

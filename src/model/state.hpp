@@ -1,0 +1,59 @@
+// Everything that a later step needs, and nothing else. Arrays are local to the rank; checkpoints store them in deck order.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace balocco {
+
+/// A node carried by a rigid body: its offset from the reference node in the body's frame.
+struct RigidNode {
+  std::int32_t node = -1;  // model row
+  bool tie = true;         // a tied node also turns with the body
+  Point offset{};
+};
+
+/// Motion of a rigid body, the same on every rank. The body frame coincides with the global one when `orientation` is 1,0,0,0.
+struct RigidBodyState {
+  Point position{};                          // of the reference node
+  std::array<double, 4> orientation{1, 0, 0, 0};  // unit quaternion w, x, y, z
+  Point velocity{}, angular_velocity{};      // half-step values, global directions
+  Point rotation{};                          // accumulated rotation vector UR of the reference node (may exceed a turn)
+  std::vector<RigidNode> nodes;              // sorted by model row
+};
+
+/// Memory of a slave node of a contact pair with a rigid surface.
+struct ContactPoint {
+  double multiplier = 0.0;  // augmented-Lagrange normal force carried over from the implicit solver, >= 0
+  double closed = 0.0;      // 1 while in contact
+  Point anchor{};           // sticking point in the frame of the master body
+  double slip = 0.0;        // accumulated sliding distance
+  double frictional_dissipation = 0.0;
+};
+
+/// Work done up to now on a node, by kind. Copies of a shared node hold the same bits; sums are taken over owners.
+struct NodalWork {
+  double external = 0.0;  // loads, prescribed motion and reactions
+  double damping = 0.0;   // mass-proportional Rayleigh damping
+};
+
+struct State {
+  double total_time = 0.0;
+  std::int32_t step = 0;            // row of Model::steps that is running or comes next
+  double step_time = 0.0;           // time passed in it
+  std::int64_t increment = 0;       // increments done in it
+  bool dynamic = false;             // true once initial velocities have been applied
+  double time_increment = 0.0;      // of the increment that led here (explicit)
+
+  std::vector<double> position;     // 4 a node, one scratch node more than the domain has
+  std::vector<double> velocity;     // 4 a node; explicit: at the middle of the last increment
+  std::vector<NodalWork> nodal_work;
+  std::vector<std::vector<double>> element_history;       // per element group
+  std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
+  std::vector<RigidBodyState> rigid_bodies;
+};
+
+}  // namespace balocco

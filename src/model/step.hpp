@@ -1,0 +1,140 @@
+// A step of the analysis: its procedure and everything that acts during it, fully resolved (OP=MOD and OP=NEW are the
+// reader's business): each step lists all boundary conditions and loads that hold in it, also those propagated from before.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace balocco {
+
+/// Degrees of freedom count from 0: 0-2 translations, 3-5 rotations, in the node's *TRANSFORM directions where it has any.
+struct BoundaryCondition {
+  enum class Kind { displacement, velocity, acceleration } kind = Kind::displacement;
+  std::int32_t node = -1;
+  std::int32_t dof = 0;
+  double magnitude = 0.0;
+  std::int32_t amplitude = -1;  // row of Model::amplitudes; -1: the procedure's default (static: ramp, explicit: at once)
+  bool propagated = false;      // said in an earlier step: a displacement stays at the value it has reached
+  bool fixed = false;           // *BOUNDARY, FIXED: hold where the node is when the step starts
+  std::int32_t file = -1, line = 0;
+};
+
+/// A concentrated force (dof 0-2) or moment (dof 3-5).
+struct ConcentratedLoad {
+  std::int32_t node = -1;
+  std::int32_t dof = 0;
+  double magnitude = 0.0;
+  double previous = 0.0;        // magnitude reached at the end of the previous step: where a static ramp starts
+  std::int32_t amplitude = -1;
+  std::int32_t file = -1, line = 0;
+};
+
+/// Pressure on element faces, positive towards the face; it follows the deforming surface.
+struct PressureLoad {
+  std::int32_t surface = -1;    // row of Model::surfaces (element faces)
+  double magnitude = 0.0;
+  double previous = 0.0;
+  std::int32_t amplitude = -1;
+  std::int32_t file = -1, line = 0;
+};
+
+/// Gravity on an element set (-1: the whole model): acceleration `magnitude` along `direction` (unit).
+struct GravityLoad {
+  std::int32_t element_set = -1;
+  double magnitude = 0.0;
+  double previous = 0.0;
+  std::array<double, 3> direction{};
+  std::int32_t amplitude = -1;
+  std::int32_t file = -1, line = 0;
+};
+
+/// Nodes fixed to a rigid body, or released from it, where they stand when the step starts.
+struct RigidAttachment {
+  std::int32_t rigid_body = -1;  // row of Model::rigid_bodies
+  std::vector<std::int32_t> nodes;
+  bool tie = true;               // false: pin
+  bool release = false;
+};
+
+/// *OUTPUT, FIELD: when a frame is written and what it holds. Exactly one of the four marks is set.
+struct FieldOutput {
+  std::optional<std::int32_t> frequency;        // every n increments
+  std::optional<std::int32_t> number_interval;  // n equal intervals of the step
+  std::optional<double> time_interval;
+  std::vector<double> time_points;
+  std::vector<std::string> node_variables;      // U, V, A, RF, ...
+  std::vector<std::string> element_variables;   // S, LE, MISES, ...
+  std::vector<std::string> integration_point_variables;  // written as <VAR>_IP
+  std::vector<std::string> contact_variables;   // CPRESS, CSHEAR, COPEN, CSLIP
+  bool single_precision = true;
+};
+
+/// *OUTPUT, HISTORY: when a row of history is written and of what.
+struct HistoryOutput {
+  struct Nodes {
+    std::int32_t set = -1;
+    std::vector<std::string> variables;  // U1, V3, RF2, UR2, VR2, AR2 ... or whole vectors U, V, A, RF, UR, VR, AR
+  };
+  struct Elements {
+    std::int32_t set = -1;
+    std::vector<std::string> variables;
+  };
+  std::optional<std::int32_t> frequency;
+  std::optional<double> time_interval;
+  std::vector<Nodes> nodes;
+  std::vector<Elements> elements;
+  std::vector<std::string> energies;         // ALLKE ... ETOTAL; empty: none
+  std::vector<std::int32_t> contact_pairs;   // rows: resultant force CFN, CFT, CAREA, centre of pressure XN
+};
+
+struct StaticProcedure {
+  double initial_increment = 1.0, duration = 1.0, minimum_increment = 1e-5, maximum_increment = 1.0;
+  bool direct = false;  // fixed increments
+  bool nonlinear_geometry = false;
+  std::int32_t maximum_increments = 100;
+  bool stabilize = false;
+  double dissipated_energy_fraction = 2e-4;
+};
+
+struct ExplicitProcedure {
+  double duration = 0.0;
+  std::optional<double> fixed_increment;  // *DYNAMIC, EXPLICIT, DIRECT USER CONTROL
+  double scale_factor = 1.0;
+  double linear_bulk_viscosity = 0.06, quadratic_bulk_viscosity = 1.2;
+};
+
+/// Convergence controls of *CONTROLS (Abaqus's meanings and defaults).
+struct StaticControls {
+  double residual_tolerance = 5e-3;    // largest residual / average force
+  double correction_tolerance = 1e-2;  // largest correction / largest increment of displacement
+  std::int32_t maximum_iterations = 16;
+  bool line_search = false;
+};
+
+struct Step {
+  enum class Procedure { static_analysis, explicit_dynamics } procedure = Procedure::static_analysis;
+  std::string name;
+  StaticProcedure static_procedure;
+  ExplicitProcedure explicit_procedure;
+  StaticControls controls;
+
+  std::vector<BoundaryCondition> boundary;
+  std::vector<ConcentratedLoad> concentrated_loads;
+  std::vector<PressureLoad> pressures;
+  std::vector<GravityLoad> gravity;
+  std::vector<std::int32_t> active_contact_pairs;  // rows of Model::contact_pairs, after *MODEL CHANGE
+  std::vector<RigidAttachment> attachments;
+  std::vector<FieldOutput> field_outputs;
+  std::vector<HistoryOutput> history_outputs;
+  std::optional<std::int32_t> checkpoint_frequency;       // *RESTART, WRITE, FREQUENCY (increments)
+  std::optional<std::int32_t> checkpoint_number_interval;  // *RESTART, WRITE, NUMBER INTERVAL
+
+  double duration() const {
+    return procedure == Procedure::static_analysis ? static_procedure.duration : explicit_procedure.duration;
+  }
+};
+
+}  // namespace balocco
