@@ -1,12 +1,14 @@
 // What every procedure works on for the life of a run on one rank: domain, element groups, contact, state.
 #pragma once
 
+#include <map>
 #include <memory>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "communicator.hpp"
+#include "constraints/nodal_directions.hpp"
 #include "domain.hpp"
 #include "elements/pressure_faces.hpp"
 #include "model/model.hpp"
@@ -29,6 +31,7 @@ class Analysis : public ResultSource {
   std::vector<std::unique_ptr<PressureFaces>> pressure_faces;  // per Model::surfaces, null where no step presses on it
   std::vector<double> nodal_mass;                  // per local node, summed over ranks (order-free), MASS elements included
   std::vector<double> nodal_damping;               // per local node: sum of alpha * mass
+  NodalDirections directions;
   State current;
 
   /// Attaches and releases what the step says, from where the nodes stand; marks dofs. Called when a step starts afresh.
@@ -37,6 +40,8 @@ class Analysis : public ResultSource {
   std::int32_t carrier(std::int32_t local_node) const { return carrier_[local_node]; }
   /// Body whose reference node is this local node, or -1.
   std::int32_t reference_of(std::int32_t local_node) const { return reference_of_[local_node]; }
+  /// This rank's part of the nodal masses of an element set (-1: all elements), per local node: what gravity acts on.
+  const std::vector<double>& partial_mass(std::int32_t element_set) const;
   /// Rebuilds carrier() from the state: after attachments, and after a checkpoint was read.
   void index_rigid_nodes();
   /// Puts the carried nodes where their bodies are.
@@ -56,7 +61,11 @@ class Analysis : public ResultSource {
   ContactResultant contact(std::int32_t pair) const override;
 
  private:
+  void sum_masses();
+  double kinetic_energy_of_rotary_inertia() const;
+
   std::vector<std::int32_t> carrier_, reference_of_;
+  mutable std::map<std::int32_t, std::vector<double>> partial_mass_;
 };
 
 }  // namespace balocco

@@ -1,0 +1,185 @@
+#include "analysis.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "constraints/rigid_body.hpp"
+#include "elements/element_type.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+std::vector<std::unique_ptr<ElementGroup>> make_groups(const Model& model, const Domain& domain) {
+  std::vector<std::unique_ptr<ElementGroup>> groups;
+  for (const auto& input : domain.groups) groups.push_back(model.elements[input.table].type->make_group(input));
+  return groups;
+}
+
+std::vector<std::vector<bool>> local_elements(const Model& model, std::span<const std::unique_ptr<ElementGroup>> groups) {
+  std::vector<std::vector<bool>> local(model.elements.size());
+  for (std::size_t table = 0; table < local.size(); ++table) local[table].resize(model.elements[table].size());
+  for (const auto& group : groups)
+    for (std::int32_t e = 0; e < group->size(); ++e) local[group->table()][group->row(e)] = true;
+  return local;
+}
+
+/// Calls `visit(local node, mass)` for every MASS element whose node is on this rank; `element` tells which it is.
+template <class Visit>
+void for_each_point_mass(const Model& model, const Domain& domain, Visit visit) {
+  for (std::size_t table = 0; table < model.elements.size(); ++table) {
+    const auto& elements = model.elements[table];
+    if (elements.type->section != Section::Kind::mass) continue;
+    for (std::int32_t row = 0; row < elements.size(); ++row) {
+      const auto node = domain.local_node[elements.connectivity[row]];
+      if (node >= 0)
+        visit(node, model.sections[elements.section[row]].mass, ElementRef{static_cast<std::int32_t>(table), row});
+    }
+  }
+}
+
+}  // namespace
+
+Analysis::Analysis(const Model& model_, const Communicator& communicator_, const Partitioner& partitioner)
+    : model(model_),
+      communicator(communicator_),
+      domain(make_domain(model_, communicator_, partitioner)),
+      directions(model_) {
+  communicator.together([&] {
+    element_groups = make_groups(model, domain);
+    for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair)
+      contacts.emplace_back(model, static_cast<std::int32_t>(pair), domain);
+  });
+  pressure_faces.resize(model.surfaces.size());
+  const auto local = local_elements(model, element_groups);
+  for (const auto& step : model.steps)
+    for (const auto& load : step.pressures)
+      if (auto& faces = pressure_faces[load.surface]; !faces)
+        faces = std::make_unique<PressureFaces>(model, model.surfaces[load.surface], domain.local_node, local,
+                                                domain.scratch_node());
+  sum_masses();
+
+  const std::size_t size = 4 * (domain.size() + 1);
+  for (auto* array : {&current.position, &current.velocity, &acceleration, &reaction}) array->assign(size, 0.0);
+  for (std::int32_t node = 0; node < domain.size(); ++node)
+    std::copy_n(model.nodes.coordinates[domain.node_row[node]].data(), 3, &current.position[4 * node]);
+  current.nodal_work.resize(domain.size());
+  for (const auto& group : element_groups) {
+    auto& history = current.element_history.emplace_back(group->history_size() * group->padded_size());
+    group->initialize_history(history);
+  }
+  for (const auto& pair : contacts) current.contact.emplace_back(pair.size());
+  current.rigid_bodies = initial_rigid_bodies(model);
+  body_reaction.resize(model.rigid_bodies.size());
+  body_angular_acceleration.resize(model.rigid_bodies.size());
+  index_rigid_nodes();
+  place_rigid_nodes(current.position);
+}
+
+void Analysis::sum_masses() {
+  // The largest share of one element in one node gives the quantum in which nodal masses are counted.
+  double largest = 0.0;
+  std::vector<double> share;
+  const auto for_each_share = [&](auto visit) {
+    for (const auto& group : element_groups) {
+      share.resize(group->nodes_per_element());
+      const auto material = model.sections[group->section()].material;
+      const double alpha = material >= 0 ? model.materials[material].damping_alpha : 0.0;
+      for (std::int32_t e = 0; e < group->size(); ++e) {
+        group->lumped_mass(e, share);
+        for (std::size_t i = 0; i < share.size(); ++i) visit(group->nodes(e)[i], share[i], alpha);
+      }
+    }
+  };
+  for_each_share([&](std::int32_t, double mass, double alpha) { largest = std::max({largest, mass, alpha * mass}); });
+  const double constant = rounding_constant(64.0 * communicator.maximum(largest));
+
+  std::vector<double> sums(4 * (domain.size() + 1), 0.0);
+  for_each_share([&](std::int32_t node, double mass, double alpha) {
+    sums[4 * node] += rounded(mass, constant);
+    sums[4 * node + 1] += rounded(alpha * mass, constant);
+  });
+  domain.halo->begin_sum(sums.data());
+  domain.halo->finish_sum(sums.data());
+  nodal_mass.resize(domain.size());
+  nodal_damping.resize(domain.size());
+  for (std::int32_t node = 0; node < domain.size(); ++node) {
+    nodal_mass[node] = sums[4 * node];
+    nodal_damping[node] = sums[4 * node + 1];
+  }
+  for_each_point_mass(model, domain, [&](std::int32_t node, double mass, ElementRef) { nodal_mass[node] += mass; });
+}
+
+const std::vector<double>& Analysis::partial_mass(std::int32_t element_set) const {
+  auto [entry, is_new] = partial_mass_.try_emplace(element_set, domain.size(), 0.0);
+  auto& mass = entry->second;
+  if (!is_new) return mass;
+  const auto contains = [&](ElementRef element) {
+    if (element_set < 0) return true;
+    const auto& elements = model.element_sets[element_set].elements;
+    return std::binary_search(elements.begin(), elements.end(), element);
+  };
+  std::vector<double> share;
+  for (const auto& group : element_groups) {
+    share.resize(group->nodes_per_element());
+    for (std::int32_t e = 0; e < group->size(); ++e) {
+      if (!contains({group->table(), group->row(e)})) continue;
+      group->lumped_mass(e, share);
+      for (std::size_t i = 0; i < share.size(); ++i) mass[group->nodes(e)[i]] += share[i];
+    }
+  }
+  for_each_point_mass(model, domain, [&](std::int32_t node, double point_mass, ElementRef element) {
+    if (domain.owned[node] && contains(element)) mass[node] += point_mass;
+  });
+  return mass;
+}
+
+void Analysis::apply_attachments(const Step& step) {
+  const auto position_of = [&](std::int32_t row) -> Point {
+    // A node is on at least one rank; all ranks need its position because bodies are replicated.
+    std::array<double, 4> found{0.0, 0.0, 0.0, 0.0};
+    const auto node = domain.local_node[row];
+    if (node >= 0 && domain.owned[node]) std::copy_n(&current.position[4 * node], 3, found.data());
+    communicator.sum(std::span<double>(found));
+    return {found[0], found[1], found[2]};
+  };
+  for (const auto& attachment : step.attachments) {
+    auto& body = current.rigid_bodies[attachment.rigid_body];
+    for (const auto row : attachment.nodes) {
+      if (attachment.release)
+        release(body, row);
+      else
+        attach(body, row, attachment.tie, position_of(row));
+    }
+  }
+  index_rigid_nodes();
+}
+
+void Analysis::index_rigid_nodes() {
+  carrier_.assign(domain.size(), -1);
+  reference_of_.assign(domain.size(), -1);
+  for (std::size_t body = 0; body < current.rigid_bodies.size(); ++body) {
+    const auto reference = domain.local_node[model.rigid_bodies[body].reference_node];
+    if (reference >= 0) reference_of_[reference] = static_cast<std::int32_t>(body);
+    for (const auto& carried : current.rigid_bodies[body].nodes)
+      if (const auto node = domain.local_node[carried.node]; node >= 0) carrier_[node] = static_cast<std::int32_t>(body);
+  }
+}
+
+void Analysis::place_rigid_nodes(std::vector<double>& position) const {
+  for (std::size_t index = 0; index < current.rigid_bodies.size(); ++index) {
+    const auto& body = current.rigid_bodies[index];
+    const auto rotation = rotation_matrix(body);
+    const auto reference = domain.local_node[model.rigid_bodies[index].reference_node];
+    if (reference >= 0) std::copy_n(body.position.data(), 3, &position[4 * reference]);
+    for (const auto& carried : body.nodes) {
+      const auto node = domain.local_node[carried.node];
+      if (node < 0) continue;
+      const auto arm = rigid_arm(rotation, carried);
+      for (int i = 0; i < 3; ++i) position[4 * node + i] = body.position[i] + arm[i];
+    }
+  }
+}
+
+}  // namespace balocco

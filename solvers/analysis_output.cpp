@@ -1,0 +1,246 @@
+// What an analysis tells those who write results: nodal fields, energies, contact resultants.
+#include <algorithm>
+#include <map>
+
+#include "analysis.hpp"
+#include "constraints/rigid_body.hpp"
+#include "elements/element_type.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// Velocity at the end of the last increment: half an increment beyond the half-step value.
+Point velocity_at_end(const Analysis& analysis, std::int32_t node) {
+  const auto& state = analysis.current;
+  Point velocity{};
+  if (state.dynamic)
+    for (int i = 0; i < 3; ++i)
+      velocity[i] = state.velocity[4 * node + i] + 0.5 * state.time_increment * analysis.acceleration[4 * node + i];
+  return velocity;
+}
+
+/// Calls `visit(local node, area, output)` for every slave node on this rank of every pair.
+template <class Visit>
+void for_each_contact_point(const Analysis& analysis, Visit visit) {
+  for (std::size_t pair = 0; pair < analysis.contacts.size(); ++pair) {
+    const auto& contact = analysis.contacts[pair];
+    const auto& master = analysis.current.rigid_bodies[contact.master_body()];
+    for (std::int32_t point = 0; point < contact.size(); ++point)
+      visit(contact.nodes()[point],
+            contact.output(point, analysis.current.position.data(), master, analysis.current.contact[pair][point]),
+            analysis.current.contact[pair][point]);
+  }
+}
+
+using NodalField = void (*)(const Analysis&, std::span<double>);
+
+void displacement(const Analysis& analysis, std::span<double> values) {
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
+    const auto& reference = analysis.model.nodes.coordinates[analysis.domain.node_row[node]];
+    for (int i = 0; i < 3; ++i) values[3 * node + i] = analysis.current.position[4 * node + i] - reference[i];
+  }
+}
+
+void velocity(const Analysis& analysis, std::span<double> values) {
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
+    std::ranges::copy(velocity_at_end(analysis, node), &values[3 * node]);
+}
+
+void acceleration(const Analysis& analysis, std::span<double> values) {
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
+    std::copy_n(&analysis.acceleration[4 * node], 3, &values[3 * node]);
+}
+
+void reaction(const Analysis& analysis, std::span<double> values) {
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
+    const auto body = analysis.reference_of(node);
+    std::copy_n(body >= 0 ? analysis.body_reaction[body].data() : &analysis.reaction[4 * node], 3, &values[3 * node]);
+  }
+}
+
+/// Fills a field that lives on reference nodes only.
+template <class Value>
+void on_reference_nodes(const Analysis& analysis, std::span<double> values, Value value) {
+  std::ranges::fill(values, 0.0);
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
+    if (const auto body = analysis.reference_of(node); body >= 0) {
+      const Point vector = value(body);
+      std::ranges::copy(vector, &values[3 * node]);
+    }
+}
+
+void rotation(const Analysis& analysis, std::span<double> values) {
+  on_reference_nodes(analysis, values, [&](std::int32_t body) { return analysis.current.rigid_bodies[body].rotation; });
+}
+
+void angular_velocity(const Analysis& analysis, std::span<double> values) {
+  on_reference_nodes(analysis, values, [&](std::int32_t body) {
+    Point at_end = analysis.current.rigid_bodies[body].angular_velocity;
+    for (int i = 0; i < 3; ++i)
+      at_end[i] += 0.5 * analysis.current.time_increment * analysis.body_angular_acceleration[body][i];
+    return at_end;
+  });
+}
+
+void angular_acceleration(const Analysis& analysis, std::span<double> values) {
+  on_reference_nodes(analysis, values, [&](std::int32_t body) { return analysis.body_angular_acceleration[body]; });
+}
+
+void reaction_moment(const Analysis& analysis, std::span<double> values) {
+  on_reference_nodes(analysis, values, [&](std::int32_t body) -> Point {
+    const auto& six = analysis.body_reaction[body];
+    return {six[3], six[4], six[5]};
+  });
+}
+
+/// A scalar of the contact points; where a node is in several pairs the largest counts.
+template <class Value>
+void contact_scalar(const Analysis& analysis, std::span<double> values, double elsewhere, Value value) {
+  std::ranges::fill(values, elsewhere);
+  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint&) {
+    values[node] = std::max(values[node], value(output));
+  });
+}
+
+void contact_pressure(const Analysis& analysis, std::span<double> values) {
+  contact_scalar(analysis, values, 0.0, [](const auto& output) { return output.pressure; });
+}
+
+void contact_shear(const Analysis& analysis, std::span<double> values) {
+  contact_scalar(analysis, values, 0.0, [](const auto& output) { return output.shear; });
+}
+
+void contact_slip(const Analysis& analysis, std::span<double> values) {
+  contact_scalar(analysis, values, 0.0, [](const auto& output) { return output.slip; });
+}
+
+/// Distance to the nearest master; zero on nodes of no contact pair.
+void contact_opening(const Analysis& analysis, std::span<double> values) {
+  std::ranges::fill(values, 0.0);
+  std::vector<bool> seen(values.size());
+  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint&) {
+    values[node] = seen[node] ? std::min(values[node], output.gap) : output.gap;
+    seen[node] = true;
+  });
+}
+
+template <class Value>
+void contact_vector(const Analysis& analysis, std::span<double> values, Value value) {
+  std::ranges::fill(values, 0.0);
+  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint&) {
+    for (int i = 0; i < 3; ++i) values[3 * node + i] += value(output)[i];
+  });
+}
+
+void contact_normal_force(const Analysis& analysis, std::span<double> values) {
+  contact_vector(analysis, values, [](const auto& output) { return output.normal_force; });
+}
+
+void contact_shear_force(const Analysis& analysis, std::span<double> values) {
+  contact_vector(analysis, values, [](const auto& output) { return output.friction_force; });
+}
+
+struct NodalVariable {
+  int components;
+  NodalField evaluate;
+};
+
+const std::map<std::string_view, NodalVariable> nodal_variables{
+    {"U", {3, displacement}},
+    {"V", {3, velocity}},
+    {"A", {3, acceleration}},
+    {"RF", {3, reaction}},
+    {"UR", {3, rotation}},
+    {"VR", {3, angular_velocity}},
+    {"AR", {3, angular_acceleration}},
+    {"RM", {3, reaction_moment}},
+    {"CPRESS", {1, contact_pressure}},
+    {"COPEN", {1, contact_opening}},
+    {"CSHEAR", {1, contact_shear}},
+    {"CSLIP", {1, contact_slip}},
+    {"CNORMF", {3, contact_normal_force}},
+    {"CSHEARF", {3, contact_shear_force}},
+};
+
+}  // namespace
+
+int Analysis::nodal_components(std::string_view variable) const {
+  const auto entry = nodal_variables.find(variable);
+  return entry == nodal_variables.end() ? 0 : entry->second.components;
+}
+
+void Analysis::nodal(std::string_view variable, std::span<double> values) const {
+  nodal_variables.at(variable).evaluate(*this, values);
+}
+
+double Analysis::kinetic_energy_of_rotary_inertia() const {
+  std::vector<double> spin(3 * domain.size());
+  angular_velocity(*this, spin);
+  double energy = 0.0;
+  for (const auto& elements : model.elements) {
+    if (elements.type->section != Section::Kind::rotary_inertia) continue;
+    for (std::int32_t row = 0; row < elements.size(); ++row) {
+      const auto node = domain.local_node[elements.connectivity[row]];
+      if (node < 0 || !domain.owned[node] || reference_of(node) < 0) continue;
+      // Into the body frame, in which the inertia is constant.
+      const auto turned = transpose(rotation_matrix(current.rigid_bodies[reference_of(node)])) *
+                          Vector3<double>{{spin[3 * node], spin[3 * node + 1], spin[3 * node + 2]}};
+      const auto& inertia = model.sections[elements.section[row]].inertia;
+      const Matrix3<double> tensor{{inertia[0], inertia[3], inertia[4], inertia[3], inertia[1], inertia[5], inertia[4],
+                                    inertia[5], inertia[2]}};
+      energy += 0.5 * dot(turned, tensor * turned);
+    }
+  }
+  return energy;
+}
+
+EnergyBalance Analysis::energies() const {
+  enum { kinetic, strain, hourglass, viscous, plastic, friction, contact_springs, work, count };
+  std::array<ExactSum, count> sums;
+  for (std::size_t index = 0; index < element_groups.size(); ++index) {
+    const auto& group = *element_groups[index];
+    for (std::int32_t e = 0; e < group.size(); ++e) {
+      const auto energy = group.energies(e, current.position.data(), current.element_history[index]);
+      sums[strain].add(energy.strain);
+      sums[hourglass].add(energy.hourglass);
+      sums[viscous].add(energy.viscous);
+      sums[plastic].add(energy.plastic);
+    }
+  }
+  for (std::int32_t node = 0; node < domain.size(); ++node) {
+    if (!domain.owned[node]) continue;
+    const auto v = velocity_at_end(*this, node);
+    sums[kinetic].add(0.5 * nodal_mass[node] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    sums[work].add(current.nodal_work[node].external);
+    sums[viscous].add(current.nodal_work[node].damping);
+  }
+  sums[kinetic].add(kinetic_energy_of_rotary_inertia());
+  for_each_contact_point(*this, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint& point) {
+    if (!domain.owned[node]) return;
+    sums[contact_springs].add(output.spring_energy);
+    sums[friction].add(point.frictional_dissipation);
+  });
+  communicator.sum(std::span<ExactSum>(sums));
+
+  EnergyBalance balance;
+  balance.kinetic = sums[kinetic].value();
+  balance.strain = sums[strain].value();
+  balance.hourglass = sums[hourglass].value();
+  balance.plastic = sums[plastic].value();
+  balance.contact = sums[contact_springs].value();
+  balance.viscous = sums[viscous].value();
+  balance.friction = sums[friction].value();
+  balance.work = sums[work].value();
+  balance.internal = balance.strain + balance.hourglass + balance.plastic + balance.contact;
+  balance.total = balance.kinetic + balance.internal + balance.viscous + balance.friction - balance.work;
+  return balance;
+}
+
+ContactResultant Analysis::contact(std::int32_t pair) const {
+  const auto& surface_pair = contacts[pair];
+  return surface_pair.resultant(communicator, current.position.data(), current.rigid_bodies[surface_pair.master_body()],
+                                current.contact[pair]);
+}
+
+}  // namespace balocco

@@ -1,0 +1,62 @@
+#include "step_driver.hpp"
+
+namespace balocco {
+
+double amplitude_factor(const Model& model, const Step& step, std::int32_t amplitude, double step_time, double total_time) {
+  if (amplitude >= 0) {
+    const auto& curve = model.amplitudes[amplitude];
+    return curve.value(curve.total_time ? total_time : step_time);
+  }
+  const bool ramps = step.procedure == Step::Procedure::static_analysis;
+  return ramps ? step_time / step.duration() : 1.0;
+}
+
+double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,
+                      double step_time, double total_time) {
+  const double factor = amplitude_factor(model, step, amplitude, step_time, total_time);
+  return amplitude >= 0 ? magnitude * factor : previous + (magnitude - previous) * factor;
+}
+
+namespace {
+
+void add_rounded(double* force, const Point& addend) {
+  for (int i = 0; i < 3; ++i) force[i] += rounded(addend[i], force[3]);
+}
+
+void add_concentrated_load(const Analysis& analysis, const ConcentratedLoad& load, double magnitude, double* force,
+                           std::vector<Point>& moments) {
+  const auto node = analysis.domain.local_node[load.node];
+  if (node < 0) return;
+  auto vector = analysis.directions.direction(load.node, load.dof % 3);
+  for (double& component : vector) component *= magnitude;
+  if (load.dof >= 3) {
+    const auto body = analysis.reference_of(node);
+    for (int i = 0; i < 3; ++i) moments[body][i] += vector[i];
+  } else if (analysis.domain.owned[node]) {
+    add_rounded(force + 4 * node, vector);
+  }
+}
+
+void add_gravity(const Analysis& analysis, const GravityLoad& load, double magnitude, double* force) {
+  const auto& mass = analysis.partial_mass(load.element_set);
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
+    const double weight = magnitude * mass[node];
+    if (weight != 0.0)
+      add_rounded(force + 4 * node, {weight * load.direction[0], weight * load.direction[1], weight * load.direction[2]});
+  }
+}
+
+}  // namespace
+
+void add_external_forces(const Analysis& analysis, const Step& step, double step_time, double total_time,
+                         const double* position, double* force, std::vector<Point>& moments) {
+  const auto magnitude_of = [&](const auto& load) {
+    return load_magnitude(analysis.model, step, load.previous, load.magnitude, load.amplitude, step_time, total_time);
+  };
+  for (const auto& load : step.concentrated_loads) add_concentrated_load(analysis, load, magnitude_of(load), force, moments);
+  for (const auto& load : step.pressures)
+    analysis.pressure_faces[load.surface]->add_forces(magnitude_of(load), position, force);
+  for (const auto& load : step.gravity) add_gravity(analysis, load, magnitude_of(load), force);
+}
+
+}  // namespace balocco
