@@ -1,0 +1,19 @@
+// The order in which State::contact holds the points of a contact pair: one convention for contact and for checkpoints.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "domain.hpp"
+#include "model/model.hpp"
+
+namespace balocco {
+
+/// Model rows of the nodes of a surface (corners of its faces, or its listed nodes), sorted, without repetition; empty if analytical.
+std::vector<std::int32_t> surface_rows(const Model& model, const Surface& surface);
+
+/// Local nodes of the slave surface of a contact pair on this rank, in increasing order: point i of State::contact[pair] belongs to
+/// the i-th of them.
+std::vector<std::int32_t> slave_nodes(const Model& model, std::int32_t pair, const Domain& domain);
+
+}  // namespace balocco
