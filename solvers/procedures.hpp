@@ -1,6 +1,8 @@
 // The procedures: each advances the state of an analysis through one step, from wherever in the step the state stands.
 #pragma once
 
+#include <string>
+
 #include "analysis.hpp"
 #include "model/results.hpp"
 
@@ -13,5 +15,9 @@ Outcome run_static_step(Analysis& analysis, const Step& step, Observer& observer
 
 /// Half-step central difference. @throws AnalysisError when an element inverts or the run blows up.
 Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observer);
+
+/// Runs the steps from where the state stands to the end of the model's last step, or of the step named `last`
+/// (empty: all). @throws InputError when there is no step of that name.
+Outcome run_steps(Analysis& analysis, Observer& observer, const std::string& last = {});
 
 }  // namespace balocco

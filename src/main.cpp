@@ -1,0 +1,212 @@
+// The command line: reads, runs, and turns what happened into an exit status and a last line.
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <petscsys.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <fstream>
+
+#include "builders/tyre_builder.hpp"
+#include "checkpoint.hpp"
+#include "communicator.hpp"
+#include "deck_reader.hpp"
+#include "deck_writer.hpp"
+#include "info.hpp"
+#include "job_observer.hpp"
+#include "model/check.hpp"
+#include "model/diagnostics.hpp"
+#include "procedures.hpp"
+#include "signals.hpp"
+
+namespace balocco {
+namespace {
+
+enum ExitStatus { completed = 0, bad_input = 2, analysis_failed = 3, stopped = 4, system_trouble = 5 };
+
+struct Command {
+  std::string deck, output = ".", last_step, spec, model_file, picture, results;
+  std::vector<std::string> ignored_keywords;
+  bool restart = false;
+  int ranks = 1;
+};
+
+/// Reads files on the root rank and hands their text to all, so that every rank parses the same bytes.
+FileLoader broadcasting_loader(const Communicator& communicator) {
+  return [&communicator, load = file_loader()](const std::string& path) -> std::optional<std::string> {
+    std::optional<std::string> text;
+    if (communicator.is_root()) text = load(path);
+    std::string message = text ? "+" + *text : "-";
+    communicator.broadcast(message);
+    if (message[0] == '-') return std::nullopt;
+    return message.substr(1);
+  };
+}
+
+void print_warnings(const std::vector<std::string>& warnings) {
+  for (const auto& warning : warnings) fmt::print(stderr, "{}\n", warning);
+}
+
+ReadResult read_whole(const Command& command, const FileLoader& loader) {
+  auto result = read_deck(command.deck, loader, {.ignored_keywords = command.ignored_keywords});
+  if (auto errors = check_model(result.model); !errors.empty()) throw InputError(std::move(errors));
+  return result;
+}
+
+ExitStatus run(const Command& command, const Communicator& communicator) {
+  const auto [model, warnings] = read_whole(command, broadcasting_loader(communicator));
+  if (model.steps.empty())
+    throw InputError(fmt::format("{}:1: error: *STEP: the deck has no step, so there is nothing to run; add a *STEP or use "
+                                 "`balocco check`", command.deck));
+  if (communicator.is_root()) {
+    print_warnings(warnings);
+    fmt::print("Balocco {}: {} on {} rank{}, {} nodes, {} steps\n", BALOCCO_VERSION, command.deck, communicator.size(),
+               communicator.size() == 1 ? "" : "s", model.nodes.size(), model.steps.size());
+    std::fflush(stdout);
+  }
+  install_signal_handlers();
+
+  Analysis analysis(model, communicator);
+  const JobPaths paths{command.output, model.name};
+  if (command.restart) {
+    read_checkpoint(paths.checkpoint(), model, communicator, analysis.domain, analysis.element_groups, analysis.current);
+    analysis.index_rigid_nodes();
+  }
+  JobObserver observer(model, communicator, analysis.domain, paths, command.restart);
+  try {
+    const auto outcome = run_steps(analysis, observer, command.last_step);
+    observer.finish(outcome == Outcome::finished, outcome == Outcome::finished ? "" : "stopped on request");
+    return outcome == Outcome::finished ? completed : stopped;
+  } catch (const AnalysisError& error) {
+    observer.finish(false, error.what());
+    throw;
+  }
+}
+
+/// Runs a job on all ranks and reports once. Errors that every rank shares leave by the same door; any other trouble on a
+/// single rank takes the whole job down, so that no rank is left behind.
+int run_together(const Command& command) {
+  const Communicator communicator;
+  const auto fail = [&](ExitStatus status, const std::string& reason) {
+    if (communicator.is_root()) {
+      std::fflush(stdout);
+      fmt::print(stderr, "BALOCCO FAILED: {}\n", reason);
+    }
+    return status;
+  };
+  try {
+    const auto status = run(command, communicator);
+    if (communicator.is_root())
+      fmt::print("{}\n", status == completed ? "BALOCCO COMPLETED" : "BALOCCO FAILED: stopped on request, checkpoint written");
+    return status;
+  } catch (const InputError& error) {
+    if (communicator.is_root()) print_warnings(error.messages());
+    return fail(bad_input, "bad input");
+  } catch (const AnalysisError& error) {
+    return fail(analysis_failed, error.what());
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "BALOCCO FAILED: rank {}: {}\n", communicator.rank(), error.what());
+    std::fflush(stderr);
+    MPI_Abort(communicator.handle(), system_trouble);
+  }
+  return system_trouble;
+}
+
+int run_with_petsc(const Command& command, std::vector<char*> petsc_arguments) {
+  int count = static_cast<int>(petsc_arguments.size());
+  petsc_arguments.push_back(nullptr);
+  char** values = petsc_arguments.data();
+  if (PetscInitialize(&count, &values, nullptr, nullptr) != 0) return system_trouble;
+  PetscPopSignalHandler();  // batch signals are ours
+  const int status = run_together(command);
+  PetscFinalize();
+  return status;
+}
+
+void write_text(const std::string& path, const std::string& text) {
+  std::ofstream file(path, std::ios::binary);
+  if (!(file << text) || !file.flush()) throw SystemError(fmt::format("{}: cannot write this file", path));
+}
+
+int check(const Command& command) {
+  const auto [model, warnings] = read_whole(command, file_loader());
+  print_warnings(warnings);
+  fmt::print("{}", summarize(model, command.ranks));
+  return completed;
+}
+
+int build_tyre_deck(const Command& command) {
+  const auto text = file_loader()(command.spec);
+  if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of a tyre description (TOML)", command.spec));
+  std::string report;
+  const auto built = build_tyre(*text, command.spec, report);
+  write_text(command.model_file, write_deck(built));
+  if (!command.picture.empty()) write_text(command.picture, tyre_section_svg(*text, command.spec));
+  fmt::print("{}", report);
+  return completed;
+}
+
+int show_info(const Command& command) {
+  fmt::print("{}", describe_results(command.results));
+  return completed;
+}
+
+/// Commands of one process: their errors are printed as they are.
+int alone(int (*work)(const Command&), const Command& command) {
+  try {
+    return work(command);
+  } catch (const InputError& error) {
+    print_warnings(error.messages());
+    fmt::print(stderr, "BALOCCO FAILED: bad input\n");
+    return bad_input;
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "BALOCCO FAILED: {}\n", error.what());
+    return system_trouble;
+  }
+}
+
+int dispatch(int argc, char** argv) {
+  Command command;
+  CLI::App app{"Balocco: rolls a whole car over obstacles. Implicit statics and explicit dynamics in one state."};
+  app.set_version_flag("--version", BALOCCO_VERSION);
+  app.require_subcommand(1);
+
+  auto* run_command = app.add_subcommand("run", "Run a deck: mpirun -n N balocco run JOB.inp [-- PETSc options]");
+  run_command->add_option("deck", command.deck, "Abaqus-style deck")->required();
+  run_command->add_option("--output", command.output, "Folder of the results (made if absent)");
+  run_command->add_flag("--restart", command.restart, "Go on from JOB.ckpt.h5 in the output folder, on any number of ranks");
+  run_command->add_option("--until", command.last_step, "Stop after the step of this name");
+  run_command->add_option("--ignore", command.ignored_keywords, "Skip this keyword with a warning (repeatable)");
+
+  auto* check_command = app.add_subcommand("check", "Read, verify and summarise a deck");
+  check_command->add_option("deck", command.deck, "Abaqus-style deck")->required();
+  check_command->add_option("-n,--ranks", command.ranks, "Number of ranks to estimate balance for")->check(CLI::PositiveNumber);
+  check_command->add_option("--ignore", command.ignored_keywords, "Skip this keyword with a warning (repeatable)");
+
+  auto* tyre_command = app.add_subcommand("tyre", "Build a tyre deck from its description");
+  tyre_command->add_option("spec", command.spec, "Tyre description (TOML)")->required();
+  tyre_command->add_option("--output", command.model_file, "Deck to write")->required();
+  tyre_command->add_option("--picture", command.picture, "Drawing of the section to write (SVG)");
+
+  auto* info_command = app.add_subcommand("info", "Show what a result file holds");
+  info_command->add_option("results", command.results, "JOB.h5")->required();
+
+  // Everything behind "--" belongs to PETSc.
+  const auto end = std::find(argv + 1, argv + argc, std::string_view("--"));
+  std::vector<char*> petsc_arguments{argv[0]};
+  petsc_arguments.insert(petsc_arguments.end(), std::min(end + 1, argv + argc), argv + argc);
+  try {
+    app.parse(static_cast<int>(end - argv), argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? completed : bad_input;
+  }
+  if (*run_command) return run_with_petsc(command, petsc_arguments);
+  if (*check_command) return alone(check, command);
+  if (*tyre_command) return alone(build_tyre_deck, command);
+  return alone(show_info, command);
+}
+
+}  // namespace
+}  // namespace balocco
+
+int main(int argc, char** argv) { return balocco::dispatch(argc, argv); }
