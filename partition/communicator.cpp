@@ -101,7 +101,9 @@ Communicator::Located Communicator::minimum(Located local) const {
   return {value, payload};
 }
 
-void Communicator::broadcast(std::string& text) const { broadcast_from(0, text, handle_); }
+void Communicator::broadcast(std::string& text) const {
+  broadcast_from(0, text, handle_);
+}
 
 void Communicator::together(const std::function<void()>& work) const {
   Report report = run(work);

@@ -45,7 +45,8 @@ std::vector<std::int32_t> partition_elements(const Graph& graph, const Communica
 }
 
 Partition make_partition(const Model& model, const Communicator& communicator, const Partitioner& partitioner) {
-  Partition partition{model, graph_elements(model), {}, std::vector<bool>(static_cast<std::size_t>(model.nodes.size()))};
+  Partition partition{
+      model, graph_elements(model), {}, std::vector<bool>(static_cast<std::size_t>(model.nodes.size()))};
   if (communicator.size() == 1)
     partition.part.assign(partition.elements.size(), 0);
   else
@@ -96,7 +97,8 @@ void number_nodes(const Partition& partition, int rank, Domain& domain) {
 }
 
 /// Nodes shared with each other rank, by model row on both sides.
-std::vector<SharedNodes> shared_nodes(const Partition& partition, const Communicator& communicator, const Domain& domain) {
+std::vector<SharedNodes> shared_nodes(const Partition& partition, const Communicator& communicator,
+                                      const Domain& domain) {
   std::map<int, std::vector<std::int32_t>> rows;  // other rank -> model rows
   for (std::size_t e = 0; e < partition.elements.size(); ++e) {
     if (partition.part[e] == communicator.rank()) continue;
@@ -120,7 +122,8 @@ std::vector<SharedNodes> shared_nodes(const Partition& partition, const Communic
 Point centroid(const Model& model, std::span<const std::int32_t> nodes) {
   Point center{};
   for (const std::int32_t node : nodes)
-    for (std::size_t c = 0; c < 3; ++c) center[c] += model.nodes.coordinates[node][c] / static_cast<double>(nodes.size());
+    for (std::size_t c = 0; c < 3; ++c)
+      center[c] += model.nodes.coordinates[node][c] / static_cast<double>(nodes.size());
   return center;
 }
 
@@ -166,7 +169,8 @@ void make_groups(const Partition& partition, int rank, const std::vector<SharedN
     auto& group = groups.back();
     group.rows.push_back(placed.row);
     if (!placed.interior) ++group.interface_count;
-    for (const std::int32_t node : partition.nodes(placed.element)) group.connectivity.push_back(domain.local_node[node]);
+    for (const std::int32_t node : partition.nodes(placed.element))
+      group.connectivity.push_back(domain.local_node[node]);
   }
 }
 

@@ -47,15 +47,16 @@ NodeElements elements_around_nodes(const Model& model, const std::vector<Element
   around.element.resize(static_cast<std::size_t>(around.first.back()));
   auto next = around.first;
   for (std::size_t e = 0; e < elements.size(); ++e)
-    for (const std::int32_t node : nodes_of(model, elements[e])) around.element[next[node]++] = static_cast<std::int32_t>(e);
+    for (const std::int32_t node : nodes_of(model, elements[e]))
+      around.element[next[node]++] = static_cast<std::int32_t>(e);
   return around;
 }
 
 }  // namespace
 
 std::int64_t element_cost(const ElementType& type) {
-  static const std::map<std::string_view, std::int64_t> cost = {{"C3D8R", 100}, {"C3D8", 400}, {"C3D6", 80}, {"M3D4", 90},
-                                                                {"M3D4R", 45},  {"M3D3", 30},  {"T3D2", 15}};
+  static const std::map<std::string_view, std::int64_t> cost = {
+      {"C3D8R", 100}, {"C3D8", 400}, {"C3D6", 80}, {"M3D4", 90}, {"M3D4R", 45}, {"M3D3", 30}, {"T3D2", 15}};
   const auto found = cost.find(type.name);
   return found != cost.end() ? found->second : 12 * type.nodes * type.integration_points;
 }

@@ -1,5 +1,5 @@
-// The graph that is partitioned: a vertex for every element that computes forces, an edge between elements that share a face
-// (solids), an edge line (membranes) or a node (trusses).
+// The graph that is partitioned: a vertex for every element that computes forces, an edge between elements that share a
+// face (solids), an edge line (membranes) or a node (trusses).
 #pragma once
 
 #include <cstdint>

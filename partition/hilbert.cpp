@@ -10,8 +10,8 @@ namespace {
 
 constexpr int bits = 20;
 
-/// Grid cell -> Hilbert index in transposed form, after J. Skilling, "Programming the Hilbert curve", AIP Conf. Proc. 707 (2004):
-/// undo the rotations from the coarsest level down, then Gray-encode.
+/// Grid cell -> Hilbert index in transposed form, after J. Skilling, "Programming the Hilbert curve", AIP Conf. Proc.
+/// 707 (2004): undo the rotations from the coarsest level down, then Gray-encode.
 void to_transposed_index(std::array<std::uint32_t, 3>& axis) {
   for (std::uint32_t level = 1U << (bits - 1); level > 1; level >>= 1) {
     const std::uint32_t lower = level - 1;

@@ -14,10 +14,13 @@
 namespace balocco {
 namespace {
 
-std::unique_ptr<ElementGroup> no_group(const GroupInput&) { return nullptr; }
+std::unique_ptr<ElementGroup> no_group(const GroupInput&) {
+  return nullptr;
+}
 
 const ElementType brick{.name = "C3D8R", .shape = Shape::hexahedron, .nodes = 8, .faces = {}, .make_group = no_group};
-const ElementType membrane{.name = "M3D4R", .shape = Shape::quadrilateral, .nodes = 4, .faces = {}, .make_group = no_group};
+const ElementType membrane{
+    .name = "M3D4R", .shape = Shape::quadrilateral, .nodes = 4, .faces = {}, .make_group = no_group};
 
 /// A block of n x n x n bricks in two sections, a membrane skin on its floor, an orphan node and a rigid body whose
 /// reference node no element touches.
@@ -38,12 +41,14 @@ Model block(std::int32_t n) {
       for (int i = 0; i < n; ++i) {
         bricks.id.push_back(bricks.size() + 1);
         bricks.section.push_back(k < n / 2 ? 0 : 1);
-        for (const auto& [a, b, c] : {std::array{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}})
+        for (const auto& [a, b, c] :
+             {std::array{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}})
           bricks.connectivity.push_back(node(i + a, j + b, k + c));
         if (k > 0) continue;
         skin.id.push_back(100000 + skin.size());
         skin.section.push_back(2);
-        for (const auto& [a, b] : {std::array{0, 0}, {1, 0}, {1, 1}, {0, 1}}) skin.connectivity.push_back(node(i + a, j + b, 0));
+        for (const auto& [a, b] : {std::array{0, 0}, {1, 0}, {1, 1}, {0, 1}})
+          skin.connectivity.push_back(node(i + a, j + b, 0));
       }
     }
   }
@@ -97,7 +102,8 @@ TEST_P(DomainOf, HasEveryElementOnceAndOwnsEveryNodeOnce) {
     EXPECT_EQ(count, std::vector<double>(count.size(), 1.0));
   }
   std::vector<double> owners(rows(), 0.0);
-  for (std::int32_t node = 0; node < domain.size(); ++node) owners[domain.node_row[node]] += domain.owned[node] ? 1.0 : 0.0;
+  for (std::int32_t node = 0; node < domain.size(); ++node)
+    owners[domain.node_row[node]] += domain.owned[node] ? 1.0 : 0.0;
   communicator.sum(owners);
   EXPECT_EQ(owners, std::vector<double>(rows(), 1.0));
   EXPECT_GE(domain.local_node[model.rigid_bodies[0].reference_node], 0) << "every rank holds reference nodes";
@@ -110,7 +116,8 @@ TEST_P(DomainOf, ConnectivityIsTheModels) {
     const auto count = static_cast<std::size_t>(table.type->nodes);
     for (std::size_t i = 0; i < group.rows.size(); ++i)
       for (std::size_t corner = 0; corner < count; ++corner)
-        EXPECT_EQ(domain.node_row[group.connectivity[i * count + corner]], table.connectivity[group.rows[i] * count + corner]);
+        EXPECT_EQ(domain.node_row[group.connectivity[i * count + corner]],
+                  table.connectivity[group.rows[i] * count + corner]);
   }
 }
 
@@ -121,8 +128,8 @@ TEST_P(DomainOf, InteriorElementsTouchNoSharedNode) {
     const auto count = static_cast<std::size_t>(model.elements[group.table].type->nodes);
     for (std::size_t i = 0; i < group.rows.size(); ++i) {
       const auto begin = group.connectivity.begin() + static_cast<std::ptrdiff_t>(i * count);
-      const bool touches =
-          std::any_of(begin, begin + static_cast<std::ptrdiff_t>(count), [&](std::int32_t node) { return shared.contains(node); });
+      const bool touches = std::any_of(begin, begin + static_cast<std::ptrdiff_t>(count),
+                                       [&](std::int32_t node) { return shared.contains(node); });
       EXPECT_EQ(touches, static_cast<std::int32_t>(i) < group.interface_count);
     }
   }
@@ -163,8 +170,10 @@ TEST_P(DomainOf, RoundedSumsAreThoseOfOneRankBitForBit) {
     const auto count = static_cast<std::size_t>(table.type->nodes);
     for (std::size_t i = 0; i < table.connectivity.size(); ++i)
       for (int c = 0; c < 3; ++c)
-        whole[3 * table.connectivity[i] + c] += rounded(
-            contribution(static_cast<std::int32_t>(t), static_cast<std::int32_t>(i / count), static_cast<int>(i % count), c), constant);
+        whole[3 * table.connectivity[i] + c] +=
+            rounded(contribution(static_cast<std::int32_t>(t), static_cast<std::int32_t>(i / count),
+                                 static_cast<int>(i % count), c),
+                    constant);
   }
   for (std::int32_t node = 0; node < domain.size(); ++node)
     for (int c = 0; c < 3; ++c) EXPECT_EQ(values[4 * node + c], whole[3 * domain.node_row[node] + c]);
