@@ -1,0 +1,34 @@
+#include "elements/element_type.hpp"
+
+#include <functional>
+#include <map>
+
+namespace balocco {
+
+namespace {
+
+// A function-local table: registrations run before main, in any order of translation units.
+std::map<std::string, ElementType, std::less<>>& table() {
+  static std::map<std::string, ElementType, std::less<>> types;
+  return types;
+}
+
+}  // namespace
+
+const ElementType* find_element_type(std::string_view name) {
+  const auto found = table().find(name);
+  return found == table().end() ? nullptr : &found->second;
+}
+
+std::vector<const ElementType*> element_types() {
+  std::vector<const ElementType*> types;
+  for (const auto& entry : table()) types.push_back(&entry.second);
+  return types;
+}
+
+RegisterElement::RegisterElement(ElementType type) {
+  const std::string name = type.name;
+  table().insert_or_assign(name, std::move(type));
+}
+
+}  // namespace balocco
