@@ -4,12 +4,14 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <span>
 
 namespace balocco {
 
-/// The constant M = 1.5 * 2^52 * q for the smallest power of two q >= 2^-51 * `largest_sum`. Every addend rounded with it is
-/// a multiple of q, so adding is exact, hence associative, as long as every partial sum stays below 2 * `largest_sum`.
+/// The constant M = 1.5 * 2^52 * q for the smallest power of two q >= 2^-51 * `largest_sum`. Every addend rounded with
+/// it is a multiple of q, so adding is exact, hence associative, as long as every partial sum stays below 2 *
+/// `largest_sum`.
 inline double rounding_constant(double largest_sum) {
   int exponent = 0;
   std::frexp(largest_sum, &exponent);
@@ -22,14 +24,19 @@ T rounded(const T& addend, const T& constant) {
   return (addend + constant) - constant;
 }
 
-/// Exact sum of any doubles (Kulisch's long accumulator): order-free, no scale to choose, about 5 ns an addend. For energies
-/// and resultants; the words of two accumulators may be added as integers (MPI_SUM) to merge them.
+/// Exact sum of any doubles (Kulisch's long accumulator): order-free, no scale to choose, about 5 ns an addend. For
+/// energies and resultants; the words of two accumulators may be added as integers (MPI_SUM) to merge them.
 class ExactSum {
  public:
-  static constexpr int word_count = 70;  // 32-bit digits that cover 2^-1074 .. 2^1024, with room for carries
+  static constexpr int digit_count = 70;  // 32-bit digits that cover 2^-1074 .. 2^1024, with room for carries
+  static constexpr int word_count = digit_count + 1;  // the last word counts addends that were no finite numbers
 
   void add(double addend) {
     if (addend == 0.0) return;
+    if (!std::isfinite(addend)) {
+      ++words_[digit_count];
+      return;
+    }
     int exponent = 0;
     const double fraction = std::frexp(addend, &exponent);  // |fraction| in [0.5, 1)
     const auto mantissa = static_cast<std::int64_t>(std::ldexp(fraction, 53));
@@ -46,20 +53,31 @@ class ExactSum {
   void clear() { words_.fill(0); }
   std::span<std::int64_t, word_count> words() { return words_; }
 
-  /// The sum, rounded once. Exact to 1 unit in the last place of a double.
+  /// The sum, exact to 1 unit in the last place of a double; not a number if any addend was not finite.
   double value() const {
+    if (words_[digit_count] != 0) return std::numeric_limits<double>::quiet_NaN();
     auto digits = words_;
-    for (int i = 0; i + 1 < word_count; ++i) {  // carry so that every digit but the last lies in [-2^31, 2^31)
-      const std::int64_t carry = (digits[i] + (std::int64_t{1} << 31)) >> 32;
-      digits[i] -= carry << 32;
-      digits[i + 1] += carry;
+    const bool negative = carry(digits) < 0;
+    if (negative) {
+      for (auto& digit : digits) digit = -digit;
+      carry(digits);
     }
     double sum = 0.0;
-    for (int i = word_count - 1; i >= 0; --i) sum += std::ldexp(static_cast<double>(digits[i]), 32 * i - bias);
-    return sum;
+    for (int i = digit_count - 1; i >= 0; --i) sum += std::ldexp(static_cast<double>(digits[i]), 32 * i - bias);
+    return negative ? -sum : sum;
   }
 
  private:
+  /// Brings every digit but the highest into [0, 2^32). @return the highest, which has the sign of the sum.
+  static std::int64_t carry(std::array<std::int64_t, word_count>& digits) {
+    for (int i = 0; i + 1 < digit_count; ++i) {
+      const std::int64_t excess = digits[i] >> 32;
+      digits[i] -= excess * (std::int64_t{1} << 32);
+      digits[i + 1] += excess;
+    }
+    return digits[digit_count - 1];
+  }
+
   static constexpr int bias = 1152;  // a multiple of 32 beyond the lowest bit of a subnormal double
   std::array<std::int64_t, word_count> words_{};
 };
