@@ -1,19 +1,15 @@
 // Checkpoints: all of State in double precision and deck order, so that a run continues bit for bit on any number of ranks.
 #pragma once
 
-#include <memory>
-#include <span>
 #include <string>
 
 #include "communicator.hpp"
 #include "domain.hpp"
-#include "elements/element_group.hpp"
+#include "hdf5_model_rows.hpp"
 #include "model/model.hpp"
 #include "model/state.hpp"
 
 namespace balocco {
-
-using ElementGroups = std::span<const std::unique_ptr<ElementGroup>>;
 
 /// Writes `path` beside itself and renames it, so that a kill at any instant leaves the last whole checkpoint. When
 /// `step_finished`, it stands at the start of the next step (step + 1, step_time 0, increment 0). Collective.

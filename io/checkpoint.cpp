@@ -1,0 +1,278 @@
+#include "checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+
+#include "elements/element_type.hpp"
+#include "hdf5_file.hpp"
+#include "hdf5_rows.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+constexpr std::int64_t format_version = 1;
+constexpr int body_values = 16;    // position 3, orientation 4, velocity 3, angular velocity 3, rotation 3
+constexpr int contact_values = 7;  // multiplier, closed, anchor 3, slip, frictional dissipation
+constexpr int work_values = 2;     // external, damping
+
+ParallelFile::Layout plain_layout(int columns) {
+  return {{static_cast<hsize_t>(columns)}, ParallelFile::Precision::double_, false};
+}
+
+std::array<double, contact_values> pack(const ContactPoint& point) {
+  return {point.multiplier, point.closed, point.anchor[0], point.anchor[1], point.anchor[2], point.slip,
+          point.frictional_dissipation};
+}
+
+ContactPoint unpack_contact(const double* v) { return {v[0], v[1], {v[2], v[3], v[4]}, v[5], v[6]}; }
+
+std::array<double, body_values> pack(const RigidBodyState& body) {
+  std::array<double, body_values> values;
+  auto next = std::copy(body.position.begin(), body.position.end(), values.begin());
+  next = std::copy(body.orientation.begin(), body.orientation.end(), next);
+  next = std::copy(body.velocity.begin(), body.velocity.end(), next);
+  next = std::copy(body.angular_velocity.begin(), body.angular_velocity.end(), next);
+  std::copy(body.rotation.begin(), body.rotation.end(), next);
+  return values;
+}
+
+RigidBodyState unpack_body(const double* v) {
+  RigidBodyState body;
+  std::copy_n(v, 3, body.position.begin());
+  std::copy_n(v + 3, 4, body.orientation.begin());
+  std::copy_n(v + 7, 3, body.velocity.begin());
+  std::copy_n(v + 10, 3, body.angular_velocity.begin());
+  std::copy_n(v + 13, 3, body.rotation.begin());
+  return body;
+}
+
+/// The first 3 of 4 values of the nodes held.
+std::vector<double> vectors_of(const std::vector<double>& nodal, const std::vector<std::int32_t>& nodes) {
+  std::vector<double> values(nodes.size() * 3, 0.0);
+  for (std::size_t i = 0; i < nodes.size() && !nodal.empty(); ++i) {
+    std::copy_n(nodal.begin() + static_cast<std::ptrdiff_t>(nodes[i]) * 4, 3, values.begin() + i * 3);
+  }
+  return values;
+}
+
+/// History of the elements held in a table, `columns` an element (shorter histories end in zeros).
+std::vector<double> histories_of(const TableRows& rows, const State& state, int columns) {
+  std::vector<double> values(rows.exchange.held() * columns, 0.0);
+  std::size_t first = 0;
+  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+    const ElementGroup& group = *rows.groups[g];
+    const auto& history = state.element_history[rows.group_index[g]];
+    for (int k = 0; k < group.history_size(); ++k) {
+      for (std::int32_t e = 0; e < group.size(); ++e) {
+        values[(first + e) * columns + k] = history[static_cast<std::size_t>(k) * group.padded_size() + e];
+      }
+    }
+    first += group.size();
+  }
+  return values;
+}
+
+void set_histories(const TableRows& rows, std::span<const double> values, int columns, State& state) {
+  std::size_t first = 0;
+  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+    const ElementGroup& group = *rows.groups[g];
+    auto& history = state.element_history[rows.group_index[g]];
+    history.resize(static_cast<std::size_t>(group.history_size()) * group.padded_size());
+    for (int k = 0; k < group.history_size(); ++k) {
+      for (std::int32_t lane = 0; lane < group.padded_size(); ++lane) {
+        const std::int32_t e = std::min(lane, group.size() - 1);  // padded lanes repeat the last element
+        history[static_cast<std::size_t>(k) * group.padded_size() + lane] = values[(first + e) * columns + k];
+      }
+    }
+    first += group.size();
+  }
+}
+
+/// Doubles of history that any element of the table has on any rank.
+int history_columns(const TableRows& rows, const Communicator& communicator) {
+  int columns = 0;
+  for (const ElementGroup* group : rows.groups) columns = std::max(columns, group->history_size());
+  return static_cast<int>(communicator.maximum(columns));
+}
+
+std::string history_path(const Model& model, const TableRows& rows) {
+  return "history_" + model.elements[rows.table].type->name;
+}
+
+void write_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
+                  ElementGroups groups, const State& state) {
+  const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::owned);
+  const auto write = [&](const std::string& name, const RowExchange& exchange, const std::vector<double>& values, int columns) {
+    file.write(file.root(), name, exchange, exchange.to_slab(values, columns), plain_layout(columns));
+  };
+  write("position", nodes.exchange, vectors_of(state.position, nodes.nodes), 3);
+  write("velocity", nodes.exchange, vectors_of(state.velocity, nodes.nodes), 3);
+  std::vector<double> work(nodes.nodes.size() * work_values, 0.0);
+  for (std::size_t i = 0; i < nodes.nodes.size() && !state.nodal_work.empty(); ++i) {
+    const NodalWork& done = state.nodal_work[nodes.nodes[i]];
+    work[i * work_values] = done.external;
+    work[i * work_values + 1] = done.damping;
+  }
+  write("work", nodes.exchange, work, work_values);
+  for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
+    const int columns = history_columns(rows, communicator);
+    if (columns > 0) write(history_path(model, rows), rows.exchange, histories_of(rows, state, columns), columns);
+  }
+  for (std::int32_t pair = 0; pair < static_cast<std::int32_t>(model.contact_pairs.size()); ++pair) {
+    const ContactRows rows = make_contact_rows(model, communicator, domain, pair, Copies::owned);
+    std::vector<double> values;
+    for (std::int32_t point : rows.points) {
+      const auto packed = pack(state.contact[pair][point]);
+      values.insert(values.end(), packed.begin(), packed.end());
+    }
+    write(fmt::format("contact_{}", pair), rows.exchange, values, contact_values);
+  }
+}
+
+void write_bodies(const Hdf5File& file, const State& state) {
+  std::vector<double> motions;
+  for (std::size_t b = 0; b < state.rigid_bodies.size(); ++b) {
+    const RigidBodyState& body = state.rigid_bodies[b];
+    const auto motion = pack(body);
+    motions.insert(motions.end(), motion.begin(), motion.end());
+    std::vector<std::int32_t> nodes;
+    std::vector<double> offsets;
+    for (const RigidNode& node : body.nodes) {
+      nodes.insert(nodes.end(), {node.node, node.tie ? 1 : 0});
+      offsets.insert(offsets.end(), node.offset.begin(), node.offset.end());
+    }
+    file.write(fmt::format("/rigid_{}_nodes", b), {body.nodes.size(), 2}, nodes);
+    file.write(fmt::format("/rigid_{}_offsets", b), {body.nodes.size(), 3}, offsets);
+  }
+  file.write("/rigid_bodies", {state.rigid_bodies.size(), body_values}, motions);
+}
+
+/// What belongs to no table; the format's name comes last and makes the file valid.
+void write_header(const std::string& path, const Model& model, const State& state, bool step_finished) {
+  Hdf5File file(path, Hdf5File::Mode::modify);
+  write_bodies(file, state);
+  file.set_attribute("/", "format_version", format_version);
+  file.set_attribute("/", "deck_sha256", model.deck_sha256);
+  file.set_attribute("/", "total_time", state.total_time);
+  file.set_attribute("/", "step", static_cast<std::int64_t>(state.step + (step_finished ? 1 : 0)));
+  file.set_attribute("/", "step_time", step_finished ? 0.0 : state.step_time);
+  file.set_attribute("/", "increment", step_finished ? std::int64_t{0} : state.increment);
+  file.set_attribute("/", "dynamic", static_cast<std::int64_t>(state.dynamic));
+  file.set_attribute("/", "time_increment", state.time_increment);
+  file.set_attribute("/", "format", std::string("balocco checkpoint"));
+  file.close();
+}
+
+void read_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
+  const bool ours = file.has_attribute("/", "format") && file.text_attribute("/", "format") == "balocco checkpoint";
+  if (!ours) throw InputError(fmt::format("{}: error: not a checkpoint of Balocco", path));
+  if (file.integer_attribute("/", "format_version") != format_version) {
+    throw InputError(fmt::format("{}: error: checkpoint of another version of Balocco; restart with that version", path));
+  }
+  if (file.text_attribute("/", "deck_sha256") != model.deck_sha256) {
+    throw InputError(fmt::format("{}: error: checkpoint of another deck than {}; restart with the deck as it was, or run "
+                                 "without --restart",
+                                 path, model.files.empty() ? model.name : model.files.front()));
+  }
+  state.total_time = file.number_attribute("/", "total_time");
+  state.step = static_cast<std::int32_t>(file.integer_attribute("/", "step"));
+  state.step_time = file.number_attribute("/", "step_time");
+  state.increment = file.integer_attribute("/", "increment");
+  state.dynamic = file.integer_attribute("/", "dynamic") != 0;
+  state.time_increment = file.number_attribute("/", "time_increment");
+}
+
+void read_bodies(const Hdf5File& file, State& state) {
+  const std::vector<double> motions = file.read("/rigid_bodies");
+  state.rigid_bodies.resize(motions.size() / body_values);
+  for (std::size_t b = 0; b < state.rigid_bodies.size(); ++b) {
+    RigidBodyState& body = state.rigid_bodies[b] = unpack_body(motions.data() + b * body_values);
+    const auto nodes = file.read_integers(fmt::format("/rigid_{}_nodes", b));
+    const auto offsets = file.read(fmt::format("/rigid_{}_offsets", b));
+    for (std::size_t i = 0; i < nodes.size() / 2; ++i) {
+      body.nodes.push_back({static_cast<std::int32_t>(nodes[2 * i]), nodes[2 * i + 1] != 0,
+                            {offsets[3 * i], offsets[3 * i + 1], offsets[3 * i + 2]}});
+    }
+  }
+}
+
+void set_vectors(const std::vector<std::int32_t>& nodes, std::span<const double> values, std::size_t count,
+                 std::vector<double>& nodal) {
+  nodal.resize(4 * (count + 1), 0.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::copy_n(values.begin() + i * 3, 3, nodal.begin() + static_cast<std::ptrdiff_t>(nodes[i]) * 4);
+  }
+}
+
+void read_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
+                 ElementGroups groups, State& state) {
+  const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::all);
+  const auto read = [&](const std::string& name, const RowExchange& exchange, int columns) {
+    return exchange.from_slab(file.read(name, exchange, columns), columns);
+  };
+  const auto count = static_cast<std::size_t>(domain.size());
+  set_vectors(nodes.nodes, read("position", nodes.exchange, 3), count, state.position);
+  set_vectors(nodes.nodes, read("velocity", nodes.exchange, 3), count, state.velocity);
+  const auto work = read("work", nodes.exchange, work_values);
+  state.nodal_work.resize(std::max(state.nodal_work.size(), count));
+  for (std::size_t i = 0; i < nodes.nodes.size(); ++i) {
+    state.nodal_work[nodes.nodes[i]] = {work[i * work_values], work[i * work_values + 1]};
+  }
+  state.element_history.resize(groups.size());
+  for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
+    const int columns = history_columns(rows, communicator);
+    if (columns > 0) set_histories(rows, read(history_path(model, rows), rows.exchange, columns), columns, state);
+  }
+  state.contact.resize(model.contact_pairs.size());
+  for (std::int32_t pair = 0; pair < static_cast<std::int32_t>(model.contact_pairs.size()); ++pair) {
+    const ContactRows rows = make_contact_rows(model, communicator, domain, pair, Copies::all);
+    const auto values = read(fmt::format("contact_{}", pair), rows.exchange, contact_values);
+    state.contact[pair].resize(rows.points.size());
+    for (std::size_t i = 0; i < rows.points.size(); ++i) {
+      state.contact[pair][rows.points[i]] = unpack_contact(values.data() + i * contact_values);
+    }
+  }
+}
+
+}  // namespace
+
+void write_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
+                      ElementGroups groups, const State& state, bool step_finished) {
+  const std::string beside = path + ".tmp";
+  ParallelFile file(beside, communicator, ParallelFile::Mode::create);
+  write_tables(file, model, communicator, domain, groups, state);
+  file.close();
+  communicator.together([&] {
+    if (!communicator.is_root()) return;
+    write_header(beside, model, state, step_finished);
+    synchronize(beside);
+    if (std::rename(beside.c_str(), path.c_str()) != 0) {
+      throw SystemError(fmt::format("{}: checkpoint cannot be put in place: {}", path, std::strerror(errno)));
+    }
+    synchronize(path);
+  });
+}
+
+void read_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
+                     ElementGroups groups, State& state) {
+  communicator.together([&] {
+    if (!std::filesystem::exists(path)) {
+      throw InputError(fmt::format("{}: error: no checkpoint to restart from; run without --restart", path));
+    }
+    const Hdf5File file(path, Hdf5File::Mode::read);
+    read_header(file, path, model, state);
+    read_bodies(file, state);
+  });
+  ParallelFile file(path, communicator, ParallelFile::Mode::read);
+  read_tables(file, model, communicator, domain, groups, state);
+}
+
+}  // namespace balocco

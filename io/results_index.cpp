@@ -1,0 +1,67 @@
+#include "results_index.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace balocco {
+
+namespace {
+
+FieldBlock index_block(const Hdf5File& file, const std::string& group, const std::string& type) {
+  FieldBlock block{type, {}};
+  for (const std::string& name : file.children(group)) {
+    const std::string path = group + "/" + name;
+    block.fields.push_back({name, file.extent(path), file.bytes_per_value(path)});
+  }
+  return block;
+}
+
+FrameRecord index_frame(const Hdf5File& file, const std::string& path) {
+  FrameRecord frame;
+  frame.path = path;
+  frame.time = file.number_attribute(path, "time");
+  frame.increment = file.integer_attribute(path, "increment");
+  if (file.exists(path + "/node")) frame.nodes = index_block(file, path + "/node", "");
+  if (file.exists(path + "/element")) {
+    for (const std::string& type : file.children(path + "/element")) {
+      frame.elements.push_back(index_block(file, path + "/element/" + type, type));
+    }
+  }
+  return frame;
+}
+
+}  // namespace
+
+std::string step_path(std::int32_t step) { return fmt::format("/step_{}", step + 1); }
+
+std::string frame_path(std::int32_t step, std::int64_t frame) { return fmt::format("{}/frame_{}", step_path(step), frame); }
+
+std::string hdf5_name(std::string name) {
+  std::replace(name.begin(), name.end(), '/', '|');
+  return name;
+}
+
+std::int64_t number_in(const std::string& name, const std::string& prefix) {
+  const bool fits = name.size() > prefix.size() && name.starts_with(prefix) &&
+                    name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
+  return fits ? std::stoll(name.substr(prefix.size())) : -1;
+}
+
+ResultsIndex index_results(const Hdf5File& file) {
+  ResultsIndex index;
+  index.nodes = file.extent("/mesh/node/id")[0];
+  for (const std::string& type : file.children("/mesh/element")) {
+    const Extent connectivity = file.extent("/mesh/element/" + type + "/connectivity");
+    index.blocks.push_back({type, connectivity[0], connectivity[1]});
+  }
+  for (const std::string& step : file.children("/")) {
+    if (number_in(step, "step_") < 0) continue;
+    for (const std::string& frame : file.children("/" + step)) {
+      if (number_in(frame, "frame_") >= 0) index.frames.push_back(index_frame(file, "/" + step + "/" + frame));
+    }
+  }
+  return index;
+}
+
+}  // namespace balocco

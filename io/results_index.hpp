@@ -1,0 +1,58 @@
+// What stands in a results file: its blocks of elements and its frames. Names of groups in one place.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "hdf5_file.hpp"
+
+namespace balocco {
+
+/// "/step_<k>", k = step + 1; "/step_<k>/frame_<i>".
+std::string step_path(std::int32_t step);
+std::string frame_path(std::int32_t step, std::int64_t frame);
+
+/// A name of the deck as a name in the file: HDF5 takes anything but '/'.
+std::string hdf5_name(std::string name);
+
+/// A dataset of a frame.
+struct FieldRecord {
+  std::string name;      // U, S, ...
+  Extent extent;         // rows, or rows x columns, or rows x points x columns
+  std::size_t bytes = 4;  // per value
+};
+
+/// Variables on the nodes, or on the elements of one type.
+struct FieldBlock {
+  std::string type;  // empty: nodes
+  std::vector<FieldRecord> fields;
+};
+
+struct FrameRecord {
+  std::string path;
+  double time = 0.0;  // total
+  std::int64_t increment = 0;
+  FieldBlock nodes;
+  std::vector<FieldBlock> elements;
+};
+
+/// Elements of one type in /mesh/element.
+struct MeshBlock {
+  std::string type;
+  hsize_t elements = 0, nodes_per_element = 0;
+};
+
+struct ResultsIndex {
+  hsize_t nodes = 0;
+  std::vector<MeshBlock> blocks;
+  std::vector<FrameRecord> frames;  // in time order
+};
+
+/// Reads the index of a file. @throws SystemError.
+ResultsIndex index_results(const Hdf5File& file);
+
+/// Number in a name such as "frame_12", or -1 where the name does not begin with `prefix`.
+std::int64_t number_in(const std::string& name, const std::string& prefix);
+
+}  // namespace balocco

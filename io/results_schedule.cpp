@@ -1,0 +1,75 @@
+#include "results_schedule.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace balocco {
+
+Schedule Schedule::every(double interval, double duration) {
+  Schedule schedule;
+  schedule.duration_ = duration;
+  schedule.tolerance_ = 1e-9 * duration;
+  schedule.interval_ = interval;
+  return schedule;
+}
+
+Schedule Schedule::equal_intervals(std::int32_t count, double duration) {
+  Schedule schedule = every(0.0, duration);
+  schedule.count_ = count;
+  return schedule;
+}
+
+Schedule Schedule::at(std::vector<double> times, double duration) {
+  Schedule schedule = every(0.0, duration);
+  std::sort(times.begin(), times.end());
+  // Index 0 is the start of the step, which is served before the first increment.
+  times.erase(times.begin(), std::upper_bound(times.begin(), times.end(), 0.0));
+  times.insert(times.begin(), 0.0);
+  schedule.times_ = std::move(times);
+  return schedule;
+}
+
+Schedule Schedule::every_increments(std::int32_t count, double duration) {
+  Schedule schedule = every(0.0, duration);
+  schedule.increments_ = std::max(count, 1);
+  return schedule;
+}
+
+Schedule Schedule::of(const FieldOutput& output, double duration) {
+  if (output.time_interval) return every(*output.time_interval, duration);
+  if (output.number_interval) return equal_intervals(*output.number_interval, duration);
+  if (output.frequency) return every_increments(*output.frequency, duration);
+  return at(output.time_points, duration);
+}
+
+Schedule Schedule::of(const HistoryOutput& output, double duration) {
+  if (output.time_interval) return every(*output.time_interval, duration);
+  return every_increments(output.frequency.value_or(1), duration);
+}
+
+double Schedule::mark(std::int64_t index) const {
+  double time = duration_;
+  if (interval_ > 0.0) {
+    time = static_cast<double>(index) * interval_;
+  } else if (count_ > 0) {
+    time = duration_ * static_cast<double>(index) / static_cast<double>(count_);
+  } else if (index < static_cast<std::int64_t>(times_.size())) {
+    time = times_[index];
+  }
+  return std::min(time, duration_);
+}
+
+bool Schedule::due(double step_time, std::int64_t increment, bool finished) const {
+  if (finished) return true;
+  if (increments_ > 0) return increment % increments_ == 0;
+  return step_time >= next();
+}
+
+void Schedule::pass(double step_time) {
+  if (increments_ > 0) return;
+  while (mark(next_index_) <= step_time + tolerance_ && mark(next_index_) < duration_) ++next_index_;
+}
+
+double Schedule::next() const { return increments_ > 0 ? 0.0 : mark(next_index_) - tolerance_; }
+
+}  // namespace balocco
