@@ -1,82 +1,97 @@
-// Contact of the nodes of a deformable surface with an analytical rigid surface: finite sliding, Coulomb friction with elastic
-// stick, one force law for the implicit and the explicit solver, so that contact forces import exactly.
+// Contact of the nodes of a deformable surface with an analytical rigid surface: finite sliding, Coulomb friction with
+// elastic stick, one force law for the implicit and the explicit solver, so that contact forces import exactly.
 //
-// Normal force of a node: t = max(0, multiplier - stiffness * gap) (gap < 0: penetration). The multiplier is zero unless the
-// implicit solver augmented it. Friction: tangential spring of stiffness friction_stiffness from the anchor, cut at mu * t.
+// Normal force of a node: t = max(0, multiplier - stiffness * gap) (gap < 0: penetration). The multiplier is zero
+// unless the implicit solver augmented it. Friction: tangential spring from the anchor, cut at mu * t; it is as stiff
+// as the normal spring, or, where the deck gives an ELASTIC SLIP, has the stiffness mu * t / elastic slip, but never
+// more than the normal spring, on which the stable increment counts.
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "communicator.hpp"
+#include "contact_law.hpp"
 #include "domain.hpp"
 #include "model/model.hpp"
 #include "model/results.hpp"
 #include "model/state.hpp"
+#include "rigid_surface.hpp"
 
 namespace balocco {
 
 /// Force of one contact point and its derivatives, for assembly by the implicit solver.
 struct ContactTangent {
-  std::int32_t node = -1;                        // local slave node
+  std::int32_t node = -1;  // local slave node
   bool closed = false;
-  std::array<double, 3> force{};                 // on the slave node; the master gets the opposite at the same place
-  std::array<double, 3 * 9> derivative{};        // d force / d (node position 3, master position 3, master spin 3), row-major
+  std::array<double, 3> force{};           // on the slave node; the master gets the opposite at the same place
+  std::array<double, 3 * 9> derivative{};  // d force / d (node position 3, master position 3, master spin 3), row-major
 };
 
 class RigidContact {
  public:
-  /// Nodes of the slave surface on this rank, each with its tributary area and penalty stiffness, computed from the whole model so
-  /// that every copy of a node has the same bits. @throws InputError where the surfaces cannot form a pair (slave without faces or
-  /// nodes, master not analytical, slave facing away from the master everywhere: normals tell).
+  /// Nodes of the slave surface on this rank, each with its tributary area and penalty stiffness, computed from the
+  /// whole model so that every copy of a node has the same bits. @throws InputError where the surfaces cannot form a
+  /// pair (slave without faces or nodes, master not analytical or on no rigid body, slave facing away from the master
+  /// everywhere: normals tell).
   RigidContact(const Model& model, std::int32_t pair, const Domain& domain);
 
   std::int32_t size() const { return static_cast<std::int32_t>(nodes_.size()); }
-  std::span<const std::int32_t> nodes() const { return nodes_; }       // local slave nodes
-  std::int32_t master_body() const { return master_body_; }            // row of Model::rigid_bodies
+  std::span<const std::int32_t> nodes() const { return nodes_; }  // local slave nodes
+  std::int32_t master_body() const { return master_body_; }       // row of Model::rigid_bodies
   double area(std::int32_t point) const { return area_[point]; }
   double normal_stiffness(std::int32_t point) const { return stiffness_[point]; }
 
-  /// Explicit: adds the contact force of every slave node on this rank (copies of shared nodes compute the same bits) to `force`,
-  /// rounded with each node's constant, and advances the points. Call between Halo::begin_sum and finish_sum.
-  void add_forces(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points, double* force) const;
+  /// Explicit: adds the contact force of every slave node on this rank (copies of shared nodes compute the same bits)
+  /// to `force`, rounded with each node's constant, and advances the points. Call between Halo::begin_sum and
+  /// finish_sum.
+  void add_forces(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points,
+                  double* force) const;
 
-  /// Sum of the forces on the master body and of their moments about its reference node, over the slave nodes owned by this rank,
-  /// exact in any order. For masters that are free to move.
-  void add_master_resultant(const double* position, const RigidBodyState& master, const std::vector<ContactPoint>& points,
-                            std::span<ExactSum, 6> force_and_moment) const;
+  /// Sum of the forces on the master body and of their moments about its reference node, over the slave nodes owned by
+  /// this rank, exact in any order. For masters that are free to move.
+  void add_master_resultant(const double* position, const RigidBodyState& master,
+                            const std::vector<ContactPoint>& points, std::span<ExactSum, 6> force_and_moment) const;
 
-  /// Implicit: force and derivative of one point whose history at the start of the increment is `old`; `updated` receives the history.
-  ContactTangent linearize(std::int32_t point, const double* position, const RigidBodyState& master, const ContactPoint& old,
-                           ContactPoint& updated) const;
+  /// Implicit: force and derivative of one point whose history at the start of the increment is `old`; `updated`
+  /// receives the history.
+  ContactTangent linearize(std::int32_t point, const double* position, const RigidBodyState& master,
+                           const ContactPoint& old, ContactPoint& updated) const;
 
-  /// Augmented Lagrange: adds the spring's part to the multipliers. @return greatest penetration on this rank before the update.
+  /// Augmented Lagrange: adds the spring's part to the multipliers, and changes nothing else, so that `points` may be
+  /// the history at the start of the increment that is being solved. @return greatest penetration on this rank before
+  /// the update.
   double augment(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points) const;
 
-  /// Gap, pressure and tangential traction of a point, and its forces, for output.
+  /// Gap, pressure and tangential traction of a point, and its forces (global directions, on the slave), for output.
+  /// The energy is what both springs hold.
   struct Output {
     double gap = 0.0, pressure = 0.0, shear = 0.0, slip = 0.0;
     Point normal_force{}, friction_force{};
     double spring_energy = 0.0;
   };
-  Output output(std::int32_t point, const double* position, const RigidBodyState& master, const ContactPoint& state) const;
+  Output output(std::int32_t point, const double* position, const RigidBodyState& master,
+                const ContactPoint& state) const;
 
   /// Resultant over all ranks. Collective, exact.
   ContactResultant resultant(const Communicator& communicator, const double* position, const RigidBodyState& master,
                              const std::vector<ContactPoint>& points) const;
 
-  /// Stable increment of the penalty springs alone: the smallest 2 / sqrt(k/m) would be; combined by the caller with the elements'.
+  /// Greatest stiffness / mass of a slave node on this rank: added to the square of the elements' highest frequency it
+  /// bounds that of the assembled system. Nodes without mass are left out.
   double largest_spring_frequency_squared(std::span<const double> nodal_mass) const;
 
  private:
-  const Model* model_ = nullptr;
-  std::int32_t pair_ = -1, master_body_ = -1;
-  AnalyticalSurface surface_;   // in the master's body frame
-  std::vector<std::int32_t> nodes_;
+  PenaltyParameters parameters(std::int32_t point) const { return {stiffness_[point], friction_, elastic_slip_}; }
+
+  std::int32_t master_body_ = -1;
+  RigidSurface surface_;
+  std::vector<std::int32_t> nodes_;  // in the order of their model rows
   std::vector<bool> owned_;
-  std::vector<double> area_, stiffness_, friction_stiffness_;
-  double friction_ = 0.0;
+  std::vector<double> area_, stiffness_;
+  double friction_ = 0.0, elastic_slip_ = 0.0;
 };
 
 }  // namespace balocco

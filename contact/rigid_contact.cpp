@@ -1,0 +1,228 @@
+#include "rigid_contact.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "constraints/rigid_body.hpp"
+#include "model/diagnostics.hpp"
+#include "slave_surface.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// Where the master body is: what turns a place in space into one in its frame, and forces back.
+struct MasterFrame {
+  Vector3<double> position;
+  Matrix3<double> rotation, inverse;
+
+  explicit MasterFrame(const RigidBodyState& master)
+      : position{master.position}, rotation(rotation_matrix(master)), inverse(transpose(rotation)) {}
+
+  Vector3<double> arm(const double* x) const { return Vector3<double>{x[0], x[1], x[2]} - position; }
+};
+
+template <class T>
+Matrix3<T> constant(const Matrix3<double>& matrix) {
+  Matrix3<T> result;
+  for (int i = 0; i < 9; ++i) result.component[i] = T(matrix.component[i]);
+  return result;
+}
+
+InputError refused(const Model& model, const ContactPair& pair, const std::string& what) {
+  return InputError(fmt::format("{}: error: *CONTACT PAIR: {}", model.where(pair.location), what));
+}
+
+/// Row of the rigid body whose surface the master is. @throws InputError if there is none.
+std::int32_t find_master_body(const Model& model, const ContactPair& pair) {
+  const Surface& master = model.surfaces[pair.master];
+  if (master.kind != Surface::Kind::analytical || !master.analytical)
+    throw refused(model, pair,
+                  fmt::format("the master surface {} is not an analytical rigid surface; make it one with *SURFACE, "
+                              "TYPE=CYLINDER, REVOLUTION or SEGMENTS and *RIGID BODY, ANALYTICAL SURFACE={}",
+                              master.name, master.name));
+  const auto body = std::find_if(model.rigid_bodies.begin(), model.rigid_bodies.end(),
+                                 [&](const RigidBody& b) { return b.analytical_surface == pair.master; });
+  if (body == model.rigid_bodies.end())
+    throw refused(model, pair,
+                  fmt::format("the master surface {} belongs to no rigid body; write *RIGID BODY, ANALYTICAL "
+                              "SURFACE={}, REF NODE=...",
+                              master.name, master.name));
+  return static_cast<std::int32_t>(body - model.rigid_bodies.begin());
+}
+
+}  // namespace
+
+RigidContact::RigidContact(const Model& model, std::int32_t pair, const Domain& domain) {
+  const ContactPair& contact = model.contact_pairs[pair];
+  const Surface& slave = model.surfaces[contact.slave];
+  const Surface& master = model.surfaces[contact.master];
+  master_body_ = find_master_body(model, contact);
+  const Point reference = initial_rigid_bodies(model)[master_body_].position;
+  surface_ = RigidSurface(*master.analytical, reference);
+  if (surface_.empty())
+    throw refused(model, contact,
+                  fmt::format("the profile of the master surface {} has no length; give it segments", master.name));
+  if (contact.interaction >= 0) {
+    const Interaction& interaction = model.interactions[contact.interaction];
+    friction_ = interaction.friction;
+    elastic_slip_ = interaction.elastic_slip.value_or(0.0);
+  }
+  const SlaveNodes all = slave_nodes(model, contact);
+  if (faces_away(model, slave, surface_, reference))
+    throw refused(
+        model, contact,
+        fmt::format(
+            "the contact surface {} faces away from {}: none of its faces looks towards the rigid surface; name "
+            "the other side of its elements (SPOS or SNEG, another of S1 to S6), or list the profile of {} in the "
+            "opposite direction (its outward normal is to the left of it)",
+            slave.name, master.name, master.name));
+  for (std::size_t i = 0; i < all.rows.size(); ++i) {
+    const std::int32_t node = domain.local_node[all.rows[i]];
+    if (node < 0) continue;
+    nodes_.push_back(node);
+    owned_.push_back(domain.owned[node]);
+    area_.push_back(all.area[i]);
+    stiffness_.push_back(all.stiffness[i]);
+  }
+}
+
+void RigidContact::add_forces(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points,
+                              double* force) const {
+  const MasterFrame frame(master);
+  for (std::int32_t i = 0; i < size(); ++i) {
+    const double* x = position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
+    const auto contact = contact_force(surface_, parameters(i), frame.inverse * frame.arm(x), points[i]);
+    if (!contact.closed) continue;
+    const auto global = frame.rotation * (contact.normal + contact.friction);
+    double* sum = force + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
+    for (int k = 0; k < 3; ++k) sum[k] += rounded(global[k], sum[3]);
+  }
+}
+
+void RigidContact::add_master_resultant(const double* position, const RigidBodyState& master,
+                                        const std::vector<ContactPoint>& points,
+                                        std::span<ExactSum, 6> force_and_moment) const {
+  const MasterFrame frame(master);
+  for (std::int32_t i = 0; i < size(); ++i) {
+    if (!owned_[i]) continue;
+    const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
+    ContactPoint point = points[i];
+    const auto contact = contact_force(surface_, parameters(i), frame.inverse * arm, point);
+    if (!contact.closed) continue;
+    const auto on_slave = frame.rotation * (contact.normal + contact.friction);
+    const auto moment = cross(arm, on_slave);
+    for (int k = 0; k < 3; ++k) {
+      force_and_moment[k].add(-on_slave[k]);
+      force_and_moment[3 + k].add(-moment[k]);
+    }
+  }
+}
+
+ContactTangent RigidContact::linearize(std::int32_t point, const double* position, const RigidBodyState& master,
+                                       const ContactPoint& old, ContactPoint& updated) const {
+  using Scalar = Dual<9>;
+  const MasterFrame frame(master);
+  const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[point]));
+  Vector3<Scalar> moved, spin;
+  for (int i = 0; i < 3; ++i) {
+    moved[i] = Scalar(arm[i], i);
+    moved[i].derivative[3 + i] = -1.0;  // the master moves the other way
+    spin[i] = Scalar(0.0, 6 + i);
+  }
+  // exp(spin) to first order about zero: the body frame sees the arm turned back, and the force turns along.
+  const auto place = constant<Scalar>(frame.inverse) * (moved - cross(spin, moved));
+  updated = old;
+  const auto contact = contact_force(surface_, parameters(point), place, updated);
+  ContactTangent tangent{.node = nodes_[point], .closed = contact.closed};
+  if (!contact.closed) return tangent;
+  const auto global = constant<Scalar>(frame.rotation) * (contact.normal + contact.friction);
+  const auto turned = global + cross(spin, global);
+  for (int i = 0; i < 3; ++i) {
+    tangent.force[i] = turned[i].value;
+    std::copy_n(turned[i].derivative.begin(), 9, tangent.derivative.begin() + 9 * i);
+  }
+  return tangent;
+}
+
+double RigidContact::augment(const double* position, const RigidBodyState& master,
+                             std::vector<ContactPoint>& points) const {
+  const MasterFrame frame(master);
+  double greatest = 0.0;
+  for (std::int32_t i = 0; i < size(); ++i) {
+    const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
+    const double gap = surface_.nearest(frame.inverse * arm).distance;
+    points[i].multiplier = std::max(0.0, points[i].multiplier - stiffness_[i] * gap);
+    greatest = std::max(greatest, -gap);
+  }
+  return greatest;
+}
+
+RigidContact::Output RigidContact::output(std::int32_t point, const double* position, const RigidBodyState& master,
+                                          const ContactPoint& state) const {
+  const MasterFrame frame(master);
+  const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[point]));
+  ContactPoint scratch = state;
+  const auto contact = contact_force(surface_, parameters(point), frame.inverse * arm, scratch);
+  Output output;
+  output.gap = contact.gap;
+  output.slip = state.slip;
+  if (!contact.closed) return output;
+  const double square = dot(contact.friction, contact.friction);
+  output.pressure = contact.pressure / area_[point];
+  output.shear = std::sqrt(square) / area_[point];
+  output.normal_force = (frame.rotation * contact.normal).component;
+  output.friction_force = (frame.rotation * contact.friction).component;
+  output.spring_energy = 0.5 * contact.pressure * contact.pressure / stiffness_[point];
+  if (contact.tangential_stiffness > 0.0) output.spring_energy += 0.5 * square / contact.tangential_stiffness;
+  return output;
+}
+
+ContactResultant RigidContact::resultant(const Communicator& communicator, const double* position,
+                                         const RigidBodyState& master, const std::vector<ContactPoint>& points) const {
+  std::array<ExactSum, 14> sums;  // normal force, friction force, moment, pressure x place, area, pressure
+  double penetration = 0.0;
+  for (std::int32_t i = 0; i < size(); ++i) {
+    if (!owned_[i]) continue;
+    const Output at = output(i, position, master, points[i]);
+    penetration = std::max(penetration, -at.gap);
+    if (!(at.pressure > 0.0)) continue;
+    const double* x = position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
+    const Vector3<double> place{x[0], x[1], x[2]};
+    const auto moment = cross(place, Vector3<double>{at.normal_force} + Vector3<double>{at.friction_force});
+    const double pressure = at.pressure * area_[i];
+    for (int k = 0; k < 3; ++k) {
+      sums[k].add(at.normal_force[k]);
+      sums[3 + k].add(at.friction_force[k]);
+      sums[6 + k].add(moment[k]);
+      sums[9 + k].add(pressure * place[k]);
+    }
+    sums[12].add(area_[i]);
+    sums[13].add(pressure);
+  }
+  communicator.sum(sums);
+  ContactResultant result;
+  const double pressure = sums[13].value();
+  for (int k = 0; k < 3; ++k) {
+    result.normal_force[k] = sums[k].value();
+    result.friction_force[k] = sums[3 + k].value();
+    result.moment[k] = sums[6 + k].value();
+    if (pressure > 0.0) result.center[k] = sums[9 + k].value() / pressure;
+  }
+  result.area = sums[12].value();
+  result.greatest_penetration = communicator.maximum(penetration);
+  return result;
+}
+
+double RigidContact::largest_spring_frequency_squared(std::span<const double> nodal_mass) const {
+  double largest = 0.0;
+  for (std::int32_t i = 0; i < size(); ++i) {
+    const double mass = nodal_mass[nodes_[i]];
+    if (mass > 0.0) largest = std::max(largest, stiffness_[i] / mass);
+  }
+  return largest;
+}
+
+}  // namespace balocco
