@@ -1,0 +1,52 @@
+// Truss T3D2: a straight bar of uniaxial stress between two nodes, any stretch and rotation.
+#pragma once
+
+#include <vector>
+
+#include "elements/element_group.hpp"
+#include "elements/nodal_access.hpp"
+#include "materials/material_law.hpp"
+
+namespace balocco {
+
+/// History of an element: the law's, its stretch l / L, the energy dissipated by viscosity, and with stiffness-proportional damping
+/// its Green strain.
+class TrussGroup final : public ElementGroup {
+ public:
+  /// @throws InputError if the material is missing or has no uniaxial law, the area is not positive or the nodes coincide.
+  explicit TrussGroup(const GroupInput& input);
+
+  int history_size() const override;
+  void initialize_history(std::span<double> history) const override;
+  void lumped_mass(std::int32_t element, std::span<double> mass) const override;
+  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  bool linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+                 std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
+  ElementEnergies energies(std::int32_t element, const double* position, std::span<const double> history) const override;
+  int output_components(std::string_view variable) const override;
+  void output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+              std::span<const double> history, std::span<double> values) const override;
+  int integration_points() const override { return 1; }
+  std::size_t bytes_per_element() const override;
+
+ private:
+  using Batch = PointBatch<PointKind::line>;
+  struct Pulled;  // stress of a pack and what it does to the stable increment
+
+  int stretch_row() const { return law_->history_size(); }
+  int dissipation_row() const { return stretch_row() + 1; }
+  int strain_row() const { return dissipation_row() + 1; }
+  bool damped() const { return damping_beta_ > 0.0; }
+  double reference_length(std::int32_t element) const { return length_[element / pack_size].lane[element % pack_size]; }
+  double strain_at(std::int32_t element, const double* position) const;
+  void set_undeformed_moduli();
+  Pulled pull(const Batch& batch, std::int32_t first, int slot, const ExplicitCycle& cycle, std::span<double> history) const;
+
+  std::unique_ptr<Law<PointKind::line>> law_;
+  double area_ = 0.0, density_ = 0.0, damping_beta_ = 0.0;
+  double initial_modulus_ = 0.0;  // dS/dE in the undeformed state
+  double initial_bound_ = 0.0;    // what the law bounds it with
+  std::vector<PackBlock> length_;  // reference lengths
+};
+
+}  // namespace balocco
