@@ -6,22 +6,26 @@
 namespace balocco {
 namespace {
 
-constexpr int samples_per_span = 64;  // arc length by chords: relative error below 1e-5 for spans that turn by less than 45 degrees
+constexpr int samples_per_span =
+    64;  // arc length by chords: relative error below 1e-5 for spans that turn by less than 45 degrees
 
 }  // namespace
 
 MeridianLine::MeridianLine(const TyreSpec& spec) {
-  std::vector<ProfilePoint> points{{spec.crown_radius, 0.0, spec.regions[0].points[0].base, spec.regions[0].points[0].cap}};
+  std::vector<ProfilePoint> points{
+      {spec.crown_radius, 0.0, spec.regions[0].points[0].base, spec.regions[0].points[0].cap}};
   std::vector<std::size_t> last_of_region;
   for (const auto& region : spec.regions) {
     points.insert(points.end(), region.points.begin(), region.points.end());
     last_of_region.push_back(points.size() - 1);
   }
-  for (auto point = points.rbegin(); point + 1 != points.rend(); ++point) knots_.push_back({0.0, point->radius, -point->axial, 0.0, 0.0});
+  for (auto point = points.rbegin(); point + 1 != points.rend(); ++point)
+    knots_.push_back({0.0, point->radius, -point->axial, 0.0, 0.0});
   for (const auto& point : points) knots_.push_back({0.0, point.radius, point.axial, 0.0, 0.0});
   const std::size_t crown = points.size() - 1;
   for (std::size_t i = 1; i < knots_.size(); ++i)
-    knots_[i].parameter = knots_[i - 1].parameter + std::hypot(knots_[i].radius - knots_[i - 1].radius, knots_[i].axial - knots_[i - 1].axial);
+    knots_[i].parameter = knots_[i - 1].parameter +
+                          std::hypot(knots_[i].radius - knots_[i - 1].radius, knots_[i].axial - knots_[i - 1].axial);
   const double middle = knots_[crown].parameter;
   for (auto& knot : knots_) knot.parameter -= middle;
   solve_curvatures(&Knot::radius, &Knot::radius_curvature);
@@ -47,11 +51,13 @@ MeridianLine::MeridianLine(const TyreSpec& spec) {
 }
 
 void MeridianLine::solve_curvatures(double Knot::*value, double Knot::*curvature) {
-  // Natural cubic spline: a tridiagonal system for the second derivatives, solved by elimination from both ends inwards.
+  // Natural cubic spline: a tridiagonal system for the second derivatives, solved by elimination from both ends
+  // inwards.
   const std::size_t n = knots_.size();
   std::vector<double> diagonal(n, 1.0), right(n, 0.0), upper(n, 0.0);
   for (std::size_t i = 1; i + 1 < n; ++i) {
-    const double before = knots_[i].parameter - knots_[i - 1].parameter, after = knots_[i + 1].parameter - knots_[i].parameter;
+    const double before = knots_[i].parameter - knots_[i - 1].parameter,
+                 after = knots_[i + 1].parameter - knots_[i].parameter;
     const double slope_change =
         (knots_[i + 1].*value - knots_[i].*value) / after - (knots_[i].*value - knots_[i - 1].*value) / before;
     const double factor = before / diagonal[i - 1];
@@ -78,8 +84,9 @@ std::array<double, 2> MeridianLine::evaluate(double parameter, double Knot::*val
 }
 
 double MeridianLine::parameter_at(double arc_length) const {
-  const auto above = std::lower_bound(lengths_.begin() + 1, lengths_.end() - 1, arc_length,
-                                      [](const std::array<double, 2>& entry, double length) { return entry[1] < length; });
+  const auto above =
+      std::lower_bound(lengths_.begin() + 1, lengths_.end() - 1, arc_length,
+                       [](const std::array<double, 2>& entry, double length) { return entry[1] < length; });
   const auto &right = *above, &left = *(above - 1);
   return left[0] + (right[0] - left[0]) * (arc_length - left[1]) / (right[1] - left[1]);
 }

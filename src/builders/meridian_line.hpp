@@ -15,7 +15,8 @@ struct LinePoint {
   double base = 0.0, cap = 0.0;    // rubber outside, linear in arc length between the described points
 };
 
-/// Cubic spline over chord length through the points and their mirror images: smooth at the crown, straight at the toes.
+/// Cubic spline over chord length through the points and their mirror images: smooth at the crown, straight at the
+/// toes.
 class MeridianLine {
  public:
   explicit MeridianLine(const TyreSpec& spec);
@@ -33,9 +34,9 @@ class MeridianLine {
   std::array<double, 2> evaluate(double parameter, double Knot::*value, double Knot::*curvature) const;
   double parameter_at(double arc_length) const;
 
-  std::vector<Knot> knots_;                      // from the left toe to the right one
-  std::vector<std::array<double, 2>> lengths_;   // (parameter, arc length from the crown) of the right half
-  std::vector<std::array<double, 3>> rubber_;    // (arc length, base, cap)
+  std::vector<Knot> knots_;                     // from the left toe to the right one
+  std::vector<std::array<double, 2>> lengths_;  // (parameter, arc length from the crown) of the right half
+  std::vector<std::array<double, 3>> rubber_;   // (arc length, base, cap)
   std::array<double, region_count> region_ends_{};
 };
 

@@ -17,7 +17,8 @@ constexpr std::size_t most_messages = 20;
 std::string bounds_in_words(const Bounds& bounds) {
   const auto unit = bounds.unit.empty() ? std::string() : fmt::format(" {}", bounds.unit);
   if (bounds.lower <= -1e300) return fmt::format("any number{}", unit.empty() ? "" : " in" + unit);
-  if (bounds.upper >= 1e300) return fmt::format("a number {} {}{}", bounds.lower_excluded ? ">" : ">=", bounds.lower, unit);
+  if (bounds.upper >= 1e300)
+    return fmt::format("a number {} {}{}", bounds.lower_excluded ? ">" : ">=", bounds.lower, unit);
   return fmt::format("a number from {} to {}{}", bounds.lower, bounds.upper, unit);
 }
 
@@ -31,7 +32,9 @@ std::optional<double> as_number(const toml::value& value) {
 
 void SpecFaults::add(std::size_t line, std::string_view table, std::string_view key, std::string_view what_and_cure) {
   if (messages_.size() >= most_messages) return;
-  const auto place = table.empty() ? std::string(key) : key.empty() ? fmt::format("[{}]", table) : fmt::format("[{}] {}", table, key);
+  const auto place = table.empty() ? std::string(key)
+                     : key.empty() ? fmt::format("[{}]", table)
+                                   : fmt::format("[{}] {}", table, key);
   messages_.push_back(fmt::format("{}:{}: error: {}: {}", file_name_, line, place, what_and_cure));
 }
 
@@ -78,7 +81,8 @@ double SpecTable::number(std::string_view key, const Bounds& bounds, std::option
     fault(key, fmt::format("not a number; write {}", bounds_in_words(bounds)));
     return safe;
   }
-  const bool inside = *number >= bounds.lower && *number <= bounds.upper && !(bounds.lower_excluded && *number == bounds.lower);
+  const bool inside =
+      *number >= bounds.lower && *number <= bounds.upper && !(bounds.lower_excluded && *number == bounds.lower);
   if (!inside) {
     fault(key, fmt::format("{} is out of range; write {}", *number, bounds_in_words(bounds)));
     return safe;
@@ -106,7 +110,8 @@ bool SpecTable::boolean(std::string_view key, std::optional<bool> fallback) {
   return value->as_boolean();
 }
 
-std::string SpecTable::text(std::string_view key, const std::vector<std::string>& choices, std::optional<std::string> fallback) {
+std::string SpecTable::text(std::string_view key, const std::vector<std::string>& choices,
+                            std::optional<std::string> fallback) {
   const auto* value = find(key, !fallback);
   if (value == nullptr) return fallback.value_or("");
   if (!value->is_string()) {
@@ -117,7 +122,8 @@ std::string SpecTable::text(std::string_view key, const std::vector<std::string>
   if (choices.empty() || std::find(choices.begin(), choices.end(), word) != choices.end()) return word;
   const auto nearest = nearest_word(word, choices);
   fault(key, fmt::format("\"{}\" is not known; {}", word,
-                         nearest.empty() ? fmt::format("choose from {}", fmt::join(choices, ", ")) : fmt::format("did you mean \"{}\"?", nearest)));
+                         nearest.empty() ? fmt::format("choose from {}", fmt::join(choices, ", "))
+                                         : fmt::format("did you mean \"{}\"?", nearest)));
   return "";
 }
 
@@ -151,9 +157,11 @@ std::vector<std::vector<double>> SpecTable::rows(std::string_view key, std::size
     if (row.is_array())
       for (const auto& entry : row.as_array())
         if (const auto number = as_number(entry)) numbers.push_back(*number);
-    const bool whole = row.is_array() && numbers.size() == row.as_array().size() && numbers.size() >= least && numbers.size() <= most;
+    const bool whole =
+        row.is_array() && numbers.size() == row.as_array().size() && numbers.size() >= least && numbers.size() <= most;
     if (!whole) {
-      faults_->add(row.location().line(), name_, key, fmt::format("row {} needs {} to {} numbers; mend it", rows.size() + 1, least, most));
+      faults_->add(row.location().line(), name_, key,
+                   fmt::format("row {} needs {} to {} numbers; mend it", rows.size() + 1, least, most));
       numbers.assign(most, 0.0);
     }
     rows.push_back(std::move(numbers));
@@ -222,7 +230,8 @@ toml::value parse_spec(const std::string& text, const std::string& file_name) {
     std::string what = error.what();
     if (const auto marker = what.find("[error] "); marker != std::string::npos) what.erase(0, marker + 8);
     what = what.substr(0, what.find('\n'));
-    throw InputError(fmt::format("{}:{}: error: TOML syntax: {}; see https://toml.io", file_name, error.location().line(), what));
+    throw InputError(
+        fmt::format("{}:{}: error: TOML syntax: {}; see https://toml.io", file_name, error.location().line(), what));
   }
 }
 

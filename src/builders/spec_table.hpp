@@ -35,8 +35,8 @@ struct Bounds {
   static Bounds any(std::string_view unit) { return {-1e300, 1e300, false, unit}; }
 };
 
-/// One table of a description. A value that is missing or bad is reported and replaced by 0, empty or the lower bound, so that
-/// reading goes on to the next fault; nothing may be built from it afterwards.
+/// One table of a description. A value that is missing or bad is reported and replaced by 0, empty or the lower bound,
+/// so that reading goes on to the next fault; nothing may be built from it afterwards.
 class SpecTable {
  public:
   /// `value` must outlive the table. `name` as in the file, "" for the top.
@@ -47,7 +47,8 @@ class SpecTable {
   double number(std::string_view key, const Bounds& bounds, std::optional<double> fallback = {});
   int integer(std::string_view key, int lower, int upper, std::optional<int> fallback = {});
   bool boolean(std::string_view key, std::optional<bool> fallback = {});
-  std::string text(std::string_view key, const std::vector<std::string>& choices, std::optional<std::string> fallback = {});
+  std::string text(std::string_view key, const std::vector<std::string>& choices,
+                   std::optional<std::string> fallback = {});
   std::vector<std::string> texts(std::string_view key);
   /// Rows of numbers; each row has `least` to `most` of them.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t least, std::size_t most);

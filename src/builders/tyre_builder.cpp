@@ -13,10 +13,12 @@ Model build_tyre(const std::string& toml_text, const std::string& file_name, std
   const auto section = make_section(spec);
   Model model;
   model.name = "tyre";
-  model.heading = fmt::format("{}, model {}: seating, inflation, contact, load{}. Units mm, ms, g, N, MPa. Membranes carry no bending: a seating "
-                              "pressure of {:g} MPa{} supports them until they are inflated. Cords are linear (no slackening in compression).",
-                              spec.title, spec.model, spec.rolling.enabled ? ", rolling over the obstacle" : "", spec.statics.seating_pressure,
-                              spec.statics.stabilize ? " and stabilization" : "");
+  model.heading = fmt::format(
+      "{}, model {}: seating, inflation, contact, load{}. Units mm, ms, g, N, MPa. Membranes carry no bending: a "
+      "seating "
+      "pressure of {:g} MPa{} supports them until they are inflated. Cords are linear (no slackening in compression).",
+      spec.title, spec.model, spec.rolling.enabled ? ", rolling over the obstacle" : "", spec.statics.seating_pressure,
+      spec.statics.stabilize ? " and stabilization" : "");
   model.units = {"mm", "g", "ms"};
   const auto mesh = add_tyre(spec, section, model);
   report = tyre_report(spec, section, mesh, model);

@@ -7,8 +7,8 @@
 
 namespace balocco {
 
-/// Builds the whole model (mesh, sections, rim, road, steps) of the description `toml_text`. `file_name` is named in messages;
-/// `report` receives masses, dimensions, counts and stable increments as text. Units mm, ms, g, N, MPa.
+/// Builds the whole model (mesh, sections, rim, road, steps) of the description `toml_text`. `file_name` is named in
+/// messages; `report` receives masses, dimensions, counts and stable increments as text. Units mm, ms, g, N, MPa.
 /// @throws InputError with every fault found: "FILE:LINE: error: [table] key: what is wrong; how to mend it".
 Model build_tyre(const std::string& toml_text, const std::string& file_name, std::string& report);
 

@@ -17,7 +17,8 @@ double halpin_tsai(double matrix, double fibre, double fraction, double factor) 
 double turned_stiffness(const Lamina& lamina, double angle) {
   const double poisson_21 = lamina.poisson_12 * lamina.modulus_2 / lamina.modulus_1;
   const double scale = 1.0 / (1.0 - lamina.poisson_12 * poisson_21);
-  const double q11 = scale * lamina.modulus_1, q22 = scale * lamina.modulus_2, q12 = scale * poisson_21 * lamina.modulus_1;
+  const double q11 = scale * lamina.modulus_1, q22 = scale * lamina.modulus_2,
+               q12 = scale * poisson_21 * lamina.modulus_1;
   const double c2 = std::pow(std::cos(angle), 2), s2 = std::pow(std::sin(angle), 2);
   return q11 * c2 * c2 + 2.0 * (q12 + 2.0 * lamina.shear_12) * c2 * s2 + q22 * s2 * s2;
 }

@@ -1,6 +1,7 @@
 // A ply of parallel cords in rubber as an orthotropic lamina.
 //
-// The cord's tension-compression asymmetry (twisted cords buckle) is out of scope: the lamina is linear, with the tensile modulus.
+// The cord's tension-compression asymmetry (twisted cords buckle) is out of scope: the lamina is linear, with the
+// tensile modulus.
 #pragma once
 
 #include "builders/tyre_spec.hpp"
@@ -16,8 +17,9 @@ struct Lamina {
   double cord_fraction = 0.0;  // of the volume
 };
 
-/// E1, nu12 and density by the rule of mixtures, E2 and G12 by the equations of Halpin and Tsai with their usual factors 2 and 1
-/// (Jones, Mechanics of Composite Materials, section 3.5). Without cords: the rubber itself at small strain.
+/// E1, nu12 and density by the rule of mixtures, E2 and G12 by the equations of Halpin and Tsai with their usual
+/// factors 2 and 1 (Jones, Mechanics of Composite Materials, section 3.5). Without cords: the rubber itself at small
+/// strain.
 Lamina make_lamina(const PlySpec& ply, const TyreSpec& spec);
 
 /// Membrane stiffness of stacked plies, N/mm: along the circumference and along the meridian, transverse strain held.

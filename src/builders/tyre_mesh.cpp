@@ -30,7 +30,8 @@ std::int32_t add_lamina(Model& model, const std::string& name, const Lamina& lam
   return add_material(model, {.name = name,
                               .density = lamina.density,
                               .law = "lamina",
-                              .parameters = {lamina.modulus_1, lamina.modulus_2, lamina.poisson_12, lamina.shear_12, lamina.shear_12, lamina.shear_23}});
+                              .parameters = {lamina.modulus_1, lamina.modulus_2, lamina.poisson_12, lamina.shear_12,
+                                             lamina.shear_12, lamina.shear_23}});
 }
 
 std::int32_t add_rubber(Model& model, const RubberSpec& rubber) {
@@ -48,15 +49,18 @@ std::int32_t add_section(Model& model, Section section) {
 }
 
 /// Composite membranes of the four regions. In model 1 the sidewall's rubber is the outermost ply.
-std::array<std::int32_t, region_count> add_membrane_sections(const TyreSpec& spec, const TyreSection& section, Model& model) {
+std::array<std::int32_t, region_count> add_membrane_sections(const TyreSpec& spec, const TyreSection& section,
+                                                             Model& model) {
   std::vector<std::int32_t> ply_materials;
-  for (const auto& ply : spec.plies) ply_materials.push_back(add_lamina(model, "PLY_" + upper(ply.name), make_lamina(ply, spec)));
+  for (const auto& ply : spec.plies)
+    ply_materials.push_back(add_lamina(model, "PLY_" + upper(ply.name), make_lamina(ply, spec)));
   Orientation wheel{.system = Orientation::System::cylindrical, .name = "WHEEL_AXIS"};
   wheel.axes = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
   model.orientations.push_back(wheel);
   std::array<std::int32_t, region_count> rows{};
   for (int r = 0; r < region_count; ++r) {
-    Section membrane{.kind = Section::Kind::membrane, .element_set = "CARCASS_" + upper(region_names[r]), .orientation = 0};
+    Section membrane{
+        .kind = Section::Kind::membrane, .element_set = "CARCASS_" + upper(region_names[r]), .orientation = 0};
     membrane.thickness = 0.0;
     const auto& region = spec.regions[r];
     if (static_cast<Region>(r) == Region::sidewall && spec.model == 1) {
@@ -64,7 +68,8 @@ std::array<std::int32_t, region_count> add_membrane_sections(const TyreSpec& spe
       const auto material = add_lamina(model, "PLY_SIDEWALL_RUBBER", make_lamina(rubber, spec));
       membrane.plies.push_back({section.sidewall_rubber, material, 0.0});
     }
-    for (const int ply : region.plies) membrane.plies.push_back({spec.plies[ply].thickness, ply_materials[ply], spec.plies[ply].angle});
+    for (const int ply : region.plies)
+      membrane.plies.push_back({spec.plies[ply].thickness, ply_materials[ply], spec.plies[ply].angle});
     for (const auto& ply : membrane.plies) membrane.thickness += ply.thickness;
     rows[r] = add_section(model, membrane);
   }
@@ -78,7 +83,8 @@ std::array<std::int32_t, solid_part_count> add_solid_sections(const TyreSpec& sp
     if (static_cast<SolidPart>(part) == SolidPart::sidewall && spec.model == 1) continue;
     auto& material = materials[spec.part_rubbers[part]];
     if (material < 0) material = add_rubber(model, spec.rubbers[spec.part_rubbers[part]]);
-    rows[part] = add_section(model, {.kind = Section::Kind::solid, .element_set = solid_part_names[part], .material = material});
+    rows[part] =
+        add_section(model, {.kind = Section::Kind::solid, .element_set = solid_part_names[part], .material = material});
   }
   return rows;
 }
@@ -102,8 +108,8 @@ void add_membranes(const TyreSpec& spec, const TyreSection& section, Model& mode
     for (std::size_t j = 0; j < section.line_regions.size(); ++j) {
       const int region = static_cast<int>(section.line_regions[j]);
       // Across the tyre first, then forwards: the normal points outwards.
-      const std::vector<std::int32_t> nodes{mesh.node(sector, line[j]), mesh.node(sector, line[j + 1]), mesh.node(sector + 1, line[j + 1]),
-                                            mesh.node(sector + 1, line[j])};
+      const std::vector<std::int32_t> nodes{mesh.node(sector, line[j]), mesh.node(sector, line[j + 1]),
+                                            mesh.node(sector + 1, line[j + 1]), mesh.node(sector + 1, line[j])};
       const ElementRef element{mesh.membranes, add_element(model, mesh.membranes, nodes, sections[region])};
       sets[region].push_back(element);
       all.push_back(element);
@@ -111,7 +117,8 @@ void add_membranes(const TyreSpec& spec, const TyreSection& section, Model& mode
     }
   }
   add_element_set(model, "BELT", sets[static_cast<int>(Region::belt)]);
-  for (int r = 0; r < region_count; ++r) add_element_set(model, model.sections[sections[r]].element_set, std::move(sets[r]));
+  for (int r = 0; r < region_count; ++r)
+    add_element_set(model, model.sections[sections[r]].element_set, std::move(sets[r]));
   add_element_set(model, "CARCASS", std::move(all));
   mesh.liner_surface = static_cast<std::int32_t>(model.surfaces.size());
   model.surfaces.push_back(std::move(liner));
@@ -148,13 +155,15 @@ void add_bead_wires(const TyreSpec& spec, const TyreSection& section, Model& mod
                                           .density = spec.bead.density,
                                           .law = "elastic",
                                           .parameters = {spec.bead.modulus, spec.bead.poisson}});
-  const auto row = add_section(model, {.kind = Section::Kind::truss, .element_set = "BEAD_WIRE", .material = steel, .area = spec.bead.area});
+  const auto row = add_section(
+      model, {.kind = Section::Kind::truss, .element_set = "BEAD_WIRE", .material = steel, .area = spec.bead.area});
   mesh.wires = add_element_table(model, "T3D2");
   std::vector<ElementRef> wires;
   for (const int position : {spec.bead.row, section.line_size() - 1 - spec.bead.row}) {
     const int node = section.layers[0][position];
     for (int sector = 0; sector < mesh.sectors(); ++sector)
-      wires.push_back({mesh.wires, add_element(model, mesh.wires, {mesh.node(sector, node), mesh.node(sector + 1, node)}, row)});
+      wires.push_back(
+          {mesh.wires, add_element(model, mesh.wires, {mesh.node(sector, node), mesh.node(sector + 1, node)}, row)});
   }
   add_element_set(model, "BEAD_WIRE", std::move(wires));
 }
@@ -219,7 +228,8 @@ std::int32_t add_element_table(Model& model, const std::string& type_name) {
   return static_cast<std::int32_t>(model.elements.size()) - 1;
 }
 
-std::int32_t add_element(Model& model, std::int32_t table, const std::vector<std::int32_t>& nodes, std::int32_t section) {
+std::int32_t add_element(Model& model, std::int32_t table, const std::vector<std::int32_t>& nodes,
+                         std::int32_t section) {
   std::int64_t id = 1;
   for (const auto& other : model.elements) id += other.size();
   auto& elements = model.elements[table];

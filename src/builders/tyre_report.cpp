@@ -17,9 +17,13 @@ namespace {
 
 using Vector = Vector3<double>;
 
-Vector vector_of(const Point& point) { return {point[0], point[1], point[2]}; }
+Vector vector_of(const Point& point) {
+  return {point[0], point[1], point[2]};
+}
 
-double length(const Vector& v) { return std::sqrt(dot(v, v)); }
+double length(const Vector& v) {
+  return std::sqrt(dot(v, v));
+}
 
 std::vector<Point> corners_of(const Model& model, const ElementTable& elements, std::int32_t row) {
   std::vector<Point> corners;
@@ -29,7 +33,8 @@ std::vector<Point> corners_of(const Model& model, const ElementTable& elements, 
 }
 
 double quadrilateral_area(const std::vector<Point>& corners) {
-  const auto first = vector_of(corners[2]) - vector_of(corners[0]), second = vector_of(corners[3]) - vector_of(corners[1]);
+  const auto first = vector_of(corners[2]) - vector_of(corners[0]),
+             second = vector_of(corners[3]) - vector_of(corners[1]);
   return 0.5 * length(cross(first, second));
 }
 
@@ -57,36 +62,42 @@ struct StableLine {
 };
 
 /// dt = edge / wave speed: what the run's own estimator refines.
-std::vector<StableLine> stable_increments(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh, const Model& model) {
+std::vector<StableLine> stable_increments(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh,
+                                          const Model& model) {
   std::vector<StableLine> lines;
   const auto& membranes = model.elements[mesh.membranes];
   for (int r = 0; r < region_count; ++r) {
     const auto stiffness = laminate_stiffness(spec.regions[r].plies, spec);
     const double density = areal_density(spec, section, static_cast<Region>(r));
-    const double across = shortest_edge(model, membranes, r, 0, 1), around = std::min(shortest_edge(model, membranes, r, 0, 3), shortest_edge(model, membranes, r, 1, 2));
+    const double across = shortest_edge(model, membranes, r, 0, 1),
+                 around = std::min(shortest_edge(model, membranes, r, 0, 3), shortest_edge(model, membranes, r, 1, 2));
     lines.push_back({model.sections[r].element_set, std::min(across * std::sqrt(density / stiffness.meridional),
                                                              around * std::sqrt(density / stiffness.circumferential))});
   }
   const auto& solids = model.elements[mesh.solids];
   for (int part = 0; part < solid_part_count; ++part) {
-    const auto row = std::find_if(model.sections.begin(), model.sections.end(),
-                                  [&](const Section& candidate) { return candidate.element_set == solid_part_names[part]; });
+    const auto row = std::find_if(model.sections.begin(), model.sections.end(), [&](const Section& candidate) {
+      return candidate.element_set == solid_part_names[part];
+    });
     if (row == model.sections.end()) continue;
     const auto section_row = static_cast<std::int32_t>(row - model.sections.begin());
     const auto& rubber = spec.rubbers[spec.part_rubbers[part]];
     double edge = 1e300;
     for (const int to : {1, 3, 4}) edge = std::min(edge, shortest_edge(model, solids, section_row, 0, to));
-    lines.push_back({solid_part_names[part], edge * std::sqrt(rubber.density / (rubber.bulk_modulus() + 4.0 / 3.0 * rubber.shear_modulus()))});
+    lines.push_back({solid_part_names[part],
+                     edge * std::sqrt(rubber.density / (rubber.bulk_modulus() + 4.0 / 3.0 * rubber.shear_modulus()))});
   }
   const auto& wires = model.elements[mesh.wires];
-  lines.push_back({"BEAD_WIRE", shortest_edge(model, wires, wires.section[0], 0, 1) * std::sqrt(spec.bead.density / spec.bead.modulus)});
+  lines.push_back({"BEAD_WIRE", shortest_edge(model, wires, wires.section[0], 0, 1) *
+                                    std::sqrt(spec.bead.density / spec.bead.modulus)});
   return lines;
 }
 
 }  // namespace
 
 double hexahedron_volume(const std::vector<Point>& corners) {
-  constexpr int signs[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+  constexpr int signs[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                               {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
   const double gauss = 1.0 / std::sqrt(3.0);
   double volume = 0.0;
   for (const auto& point : signs) {
@@ -104,7 +115,8 @@ double hexahedron_volume(const std::vector<Point>& corners) {
   return volume;
 }
 
-std::vector<PartMass> tyre_masses(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh, const Model& model) {
+std::vector<PartMass> tyre_masses(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh,
+                                  const Model& model) {
   std::vector<PartMass> masses;
   const auto add = [&](const std::string& part) -> double& {
     for (auto& entry : masses)
@@ -139,9 +151,11 @@ std::string tyre_report(const TyreSpec& spec, const TyreSection& section, const 
     fmt::format_to(out, "  mass {:<18} {:8.3f} kg\n", part, mass / 1000.0);
     total += mass;
   }
-  fmt::format_to(out, "  mass {:<18} {:8.3f} kg (rim {:.3f} kg not counted)\n", "tyre", total / 1000.0, spec.rim.mass / 1000.0);
-  fmt::format_to(out, "  moulded section    width {:.1f} mm, outer diameter {:.1f} mm; beads move {:.2f} mm a side to the rim\n", section.width(),
-                 2.0 * section.outer_radius(), section.seat_shift);
+  fmt::format_to(out, "  mass {:<18} {:8.3f} kg (rim {:.3f} kg not counted)\n", "tyre", total / 1000.0,
+                 spec.rim.mass / 1000.0);
+  fmt::format_to(
+      out, "  moulded section    width {:.1f} mm, outer diameter {:.1f} mm; beads move {:.2f} mm a side to the rim\n",
+      section.width(), 2.0 * section.outer_radius(), section.seat_shift);
   fmt::format_to(out, "  mesh               {} nodes, {} sectors", model.nodes.size(), mesh.sectors());
   for (const auto& elements : model.elements) fmt::format_to(out, ", {} {}", elements.size(), elements.type->name);
   fmt::format_to(out, "\n");
@@ -149,9 +163,11 @@ std::string tyre_report(const TyreSpec& spec, const TyreSection& section, const 
     fmt::format_to(out, "  stable increment   {:<18} {:.3e} ms\n", part, increment);
   if (spec.rolling.enabled) {
     const double radius = rolling_radius(spec, section);
-    fmt::format_to(out, "  rolling            radius {:.1f} mm, spin {:.5f} rad/ms at {:.2f} mm/ms; wheel turns {:.0f} degrees\n", radius,
-                   spec.rolling.speed / radius, spec.rolling.speed,
-                   (spec.rolling.settle_duration + spec.rolling.duration) * spec.rolling.speed / radius * 180.0 / std::numbers::pi);
+    fmt::format_to(
+        out, "  rolling            radius {:.1f} mm, spin {:.5f} rad/ms at {:.2f} mm/ms; wheel turns {:.0f} degrees\n",
+        radius, spec.rolling.speed / radius, spec.rolling.speed,
+        (spec.rolling.settle_duration + spec.rolling.duration) * spec.rolling.speed / radius * 180.0 /
+            std::numbers::pi);
   }
   return text;
 }

@@ -70,7 +70,8 @@ double signed_area(const TyreSection& section, const SectionQuad& quad) {
 double smallest_corner(const TyreSection& section, const SectionQuad& quad) {
   double smallest = 1e300;
   for (int i = 0; i < 4; ++i) {
-    const auto &a = section.nodes[quad.nodes[(i + 3) % 4]], &b = section.nodes[quad.nodes[i]], &c = section.nodes[quad.nodes[(i + 1) % 4]];
+    const auto &a = section.nodes[quad.nodes[(i + 3) % 4]], &b = section.nodes[quad.nodes[i]],
+               &c = section.nodes[quad.nodes[(i + 1) % 4]];
     smallest = std::min(smallest, (b[1] - a[1]) * (c[0] - b[0]) - (c[1] - b[1]) * (b[0] - a[0]));
   }
   return smallest;
@@ -81,7 +82,8 @@ void add_nodes(const TyreSpec& spec, const MeridianLine& line, const Division& h
   const auto layers_of = [&](int j) {
     int layers = 0;
     for (const int membrane : {j - 1, j})
-      if (membrane >= 0 && membrane < 2 * half_size) layers = std::max(layers, layers_outside(spec, section.line_regions[membrane]));
+      if (membrane >= 0 && membrane < 2 * half_size)
+        layers = std::max(layers, layers_outside(spec, section.line_regions[membrane]));
     return layers;
   };
   section.layers.assign(2 + spec.cap_layers, std::vector<int>(2 * half_size + 1, -1));
@@ -101,14 +103,17 @@ void add_quads(const TyreSpec& spec, TyreSection& section) {
     const int layers = layers_outside(spec, region);
     for (int k = 0; k < layers; ++k) {
       const auto &inside = section.layers[k], &outside = section.layers[k + 1];
-      section.quads.push_back({{inside[j], inside[j + 1], outside[j + 1], outside[j]}, part_of(region, k), k + 1 == layers});
+      section.quads.push_back(
+          {{inside[j], inside[j + 1], outside[j + 1], outside[j]}, part_of(region, k), k + 1 == layers});
     }
   }
   for (const auto& quad : section.quads) {
     if (smallest_corner(section, quad) > 0.0) continue;
     const auto& node = section.nodes[quad.nodes[0]];
-    throw InputError(fmt::format("{}:1: error: [section]: the rubber outside the line folds over itself near radius {:.1f} mm, axial {:.1f} mm; "
-                                 "make it thinner there or the line less curved", spec.file_name, node[0], node[1]));
+    throw InputError(fmt::format(
+        "{}:1: error: [section]: the rubber outside the line folds over itself near radius {:.1f} mm, axial {:.1f} mm; "
+        "make it thinner there or the line less curved",
+        spec.file_name, node[0], node[1]));
   }
 }
 
@@ -117,7 +122,9 @@ void find_rim_contact(const TyreSpec& spec, TyreSection& section) {
   const int last = section.line_size() - 1;
   double heel = 0.0;
   for (int j = 0; j <= last; ++j) {
-    if (section.line_regions[std::min(j, last - 1)] != Region::bead && section.line_regions[std::max(j - 1, 0)] != Region::bead) continue;
+    if (section.line_regions[std::min(j, last - 1)] != Region::bead &&
+        section.line_regions[std::max(j - 1, 0)] != Region::bead)
+      continue;
     const bool toe = j == 0 || j == last;
     for (int layer = 0; layer <= 1; ++layer) {
       const int node = section.layers[layer][j];

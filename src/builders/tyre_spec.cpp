@@ -22,8 +22,9 @@ int find_named(const std::vector<Item>& items, const std::string& name, SpecTabl
     names.push_back(items[i].name);
   }
   const auto nearest = nearest_word(name, names);
-  table.fault(key, fmt::format("\"{}\" is not described in this file; {}", name,
-                               nearest.empty() ? "describe it or name another" : fmt::format("did you mean \"{}\"?", nearest)));
+  table.fault(
+      key, fmt::format("\"{}\" is not described in this file; {}", name,
+                       nearest.empty() ? "describe it or name another" : fmt::format("did you mean \"{}\"?", nearest)));
   return -1;
 }
 
@@ -38,7 +39,8 @@ void read_rubbers(SpecTable& top, TyreSpec& spec) {
     rubber.density = table.number("density", Bounds::positive("g/mm3"));
     rubber.damping_alpha = table.number("damping_alpha", Bounds::not_negative("1/ms"), 0.0);
     rubber.damping_beta = table.number("damping_beta", Bounds::not_negative("ms"), 0.0);
-    if (rubber.c10 + rubber.c01 <= 0.0) table.fault("c10", "c10 + c01 is 0, which is no stiffness at all; give one of them a value > 0 MPa");
+    if (rubber.c10 + rubber.c01 <= 0.0)
+      table.fault("c10", "c10 + c01 is 0, which is no stiffness at all; give one of them a value > 0 MPa");
     table.refuse_unknown();
     spec.rubbers.push_back(rubber);
   }
@@ -63,7 +65,8 @@ double read_angle(SpecTable& table) {
   const auto range = Bounds::between(-90.0, 90.0, "degrees");
   const bool meridian = table.has("angle_to_meridian"), circumference = table.has("angle_to_circumference");
   if (meridian == circumference) {
-    table.fault("angle_to_meridian", "a ply with cords needs exactly one of angle_to_meridian and angle_to_circumference; keep one");
+    table.fault("angle_to_meridian",
+                "a ply with cords needs exactly one of angle_to_meridian and angle_to_circumference; keep one");
     if (!meridian) return 0.0;
   }
   if (meridian) {
@@ -87,8 +90,9 @@ void read_plies(SpecTable& top, TyreSpec& spec) {
       ply.spacing = table.number("spacing", Bounds::positive("mm"));
       ply.angle = read_angle(table);
       if (ply.spacing > 0.0 && ply.thickness > 0.0 && ply.cord_area >= 0.9 * ply.spacing * ply.thickness)
-        table.fault("cord_area", fmt::format("cords fill {:.0f} % of the ply; keep cord_area below 0.9 * spacing * thickness",
-                                             100.0 * ply.cord_area / (ply.spacing * ply.thickness)));
+        table.fault("cord_area",
+                    fmt::format("cords fill {:.0f} % of the ply; keep cord_area below 0.9 * spacing * thickness",
+                                100.0 * ply.cord_area / (ply.spacing * ply.thickness)));
     }
     table.refuse_unknown();
     spec.plies.push_back(ply);
@@ -101,18 +105,22 @@ void read_points(SpecTable& table, bool has_cap, RegionSpec& region) {
   for (const auto& row : table.rows("points", columns, columns)) {
     const ProfilePoint point{row[0], row[1], row[2], has_cap ? row[3] : 0.0};
     if (point.radius <= 0.0 || point.axial <= 0.0 || point.base <= 0.0 || (has_cap && point.cap <= 0.0))
-      table.fault("points", fmt::format("row {}: radius, axial position and thicknesses must be > 0 mm (the right half of the section)",
-                                        region.points.size() + 1));
+      table.fault(
+          "points",
+          fmt::format("row {}: radius, axial position and thicknesses must be > 0 mm (the right half of the section)",
+                      region.points.size() + 1));
     region.points.push_back(point);
   }
-  if (table.has("points") && region.points.empty()) table.fault("points", "empty; give at least the last point of the region");
+  if (table.has("points") && region.points.empty())
+    table.fault("points", "empty; give at least the last point of the region");
 }
 
 void read_section(SpecTable& top, TyreSpec& spec) {
   auto section = top.table("section");
   spec.crown_radius = section.number("crown_radius", Bounds::positive("mm"));
   spec.cap_layers = section.integer("cap_layers", 1, 8, 1);
-  constexpr std::array<const char*, solid_part_count> rubber_keys{"base_rubber", "cap_rubber", "sidewall_rubber", "bead_rubber"};
+  constexpr std::array<const char*, solid_part_count> rubber_keys{"base_rubber", "cap_rubber", "sidewall_rubber",
+                                                                  "bead_rubber"};
   for (int part = 0; part < solid_part_count; ++part)
     spec.part_rubbers[part] = find_named(spec.rubbers, section.text(rubber_keys[part], {}), section, rubber_keys[part]);
   for (int r = 0; r < region_count; ++r) {
@@ -129,8 +137,10 @@ void read_section(SpecTable& top, TyreSpec& spec) {
   for (const auto& region : spec.regions) {
     for (const auto& point : region.points) {
       if (point.radius >= radius)
-        section.fault("crown_radius", fmt::format("the line must fall from crown to toe, but radius {} mm follows {:.6g} mm; order the points",
-                                                  point.radius, radius));
+        section.fault(
+            "crown_radius",
+            fmt::format("the line must fall from crown to toe, but radius {} mm follows {:.6g} mm; order the points",
+                        point.radius, radius));
       radius = point.radius;
     }
   }
@@ -214,8 +224,9 @@ void read_rolling_and_output(SpecTable& top, TyreSpec& spec) {
   rolling.quadratic_bulk_viscosity = table.number("quadratic_bulk_viscosity", Bounds::not_negative(""), 1.2);
   rolling.scale_factor = table.number("scale_factor", Bounds::between(0.01, 1.0, ""), 0.9);
   if (rolling.enabled && rolling.speed * (rolling.settle_duration + rolling.duration) >= spec.road.ahead)
-    table.fault("duration", fmt::format("the wheel travels {:.0f} mm and leaves the road; shorten the run or lengthen [road] ahead",
-                                        rolling.speed * (rolling.settle_duration + rolling.duration)));
+    table.fault("duration",
+                fmt::format("the wheel travels {:.0f} mm and leaves the road; shorten the run or lengthen [road] ahead",
+                            rolling.speed * (rolling.settle_duration + rolling.duration)));
   table.refuse_unknown();
 
   auto output = top.table("output");

@@ -1,4 +1,5 @@
-// The description of a tyre, its rim, its road and its run, as read from TOML. Units mm, ms, g, N, MPa; angles in radians.
+// The description of a tyre, its rim, its road and its run, as read from TOML. Units mm, ms, g, N, MPa; angles in
+// radians.
 #pragma once
 
 #include <array>
@@ -11,11 +12,11 @@ namespace balocco {
 /// Mooney-Rivlin rubber.
 struct RubberSpec {
   std::string name;
-  double c10 = 0.0, c01 = 0.0;      // MPa
-  double bulk_to_shear = 20.0;      // initial bulk / shear modulus
-  double density = 0.0;             // g/mm3
-  double damping_alpha = 0.0;       // 1/ms
-  double damping_beta = 0.0;        // ms
+  double c10 = 0.0, c01 = 0.0;  // MPa
+  double bulk_to_shear = 20.0;  // initial bulk / shear modulus
+  double density = 0.0;         // g/mm3
+  double damping_alpha = 0.0;   // 1/ms
+  double damping_beta = 0.0;    // ms
 
   double shear_modulus() const { return 2.0 * (c10 + c01); }
   double bulk_modulus() const { return bulk_to_shear * shear_modulus(); }
@@ -30,10 +31,10 @@ struct CordSpec {
 struct PlySpec {
   std::string name;
   int rubber = -1, cord = -1;
-  double thickness = 0.0;   // mm
-  double cord_area = 0.0;   // mm2
-  double spacing = 0.0;     // mm between cords
-  double angle = 0.0;       // from the circumference, about the outward normal
+  double thickness = 0.0;  // mm
+  double cord_area = 0.0;  // mm2
+  double spacing = 0.0;    // mm between cords
+  double angle = 0.0;      // from the circumference, about the outward normal
 };
 
 /// A point of the right half of the moulded carcass line and the rubber outside it there.
@@ -46,7 +47,8 @@ struct ProfilePoint {
 /// The rubber outside the line.
 enum class SolidPart { tread_base, tread_cap, sidewall, bead };
 constexpr int solid_part_count = 4;
-constexpr std::array<const char*, solid_part_count> solid_part_names{"TREAD_BASE", "TREAD_CAP", "SIDEWALL_SOLID", "BEAD_SOLID"};
+constexpr std::array<const char*, solid_part_count> solid_part_names{"TREAD_BASE", "TREAD_CAP", "SIDEWALL_SOLID",
+                                                                     "BEAD_SOLID"};
 
 enum class Region { belt, shoulder, sidewall, bead };
 constexpr int region_count = 4;
@@ -60,47 +62,47 @@ struct RegionSpec {
 };
 
 struct BeadSpec {
-  double area = 0.0;      // mm2 of wire a side
+  double area = 0.0;  // mm2 of wire a side
   double modulus = 0.0, poisson = 0.0, density = 0.0;
-  int row = 1;            // line node that carries the wire, counted from the toe
+  int row = 1;  // line node that carries the wire, counted from the toe
 };
 
 struct RimSpec {
-  double diameter = 0.0, width = 0.0;   // mm
-  double flange_height = 0.0;           // mm above the seat over which bead and rim touch
-  double mass = 0.0;                    // g
+  double diameter = 0.0, width = 0.0;                   // mm
+  double flange_height = 0.0;                           // mm above the seat over which bead and rim touch
+  double mass = 0.0;                                    // g
   double spin_inertia = 0.0, transverse_inertia = 0.0;  // g mm2
 };
 
 struct MeshSpec {
-  int sectors = 0;                 // around the whole tyre, outside the refined arc
+  int sectors = 0;                           // around the whole tyre, outside the refined arc
   double arc_angle = 0.0, arc_center = 0.0;  // radians; model 3
   int arc_sectors = 0;
 };
 
 struct StaticSpec {
   double pressure = 0.0, seating_pressure = 0.0;  // MPa
-  double load = 0.0;                 // N
-  double contact_deflection = 0.0;   // mm by which the road rises beyond first touch
-  double expected_stiffness = 0.0;   // N/mm, for the estimates that the deck needs
+  double load = 0.0;                              // N
+  double contact_deflection = 0.0;                // mm by which the road rises beyond first touch
+  double expected_stiffness = 0.0;                // N/mm, for the estimates that the deck needs
   bool stabilize = false;
 };
 
 struct RoadSpec {
-  double clearance = 0.0;                          // mm below the moulded tread
-  double behind = 0.0, ahead = 0.0;                 // mm of flat road
+  double clearance = 0.0;                                                     // mm below the moulded tread
+  double behind = 0.0, ahead = 0.0;                                           // mm of flat road
   double obstacle_height = 0.0, obstacle_length = 0.0, obstacle_start = 0.0;  // mm; height 0: none
-  double top_fillet = 0.0, foot_fillet = 0.0;      // mm
+  double top_fillet = 0.0, foot_fillet = 0.0;                                 // mm
   double friction = 0.0;
 };
 
 struct RollingSpec {
   bool enabled = true;
-  double speed = 0.0;                      // mm/ms
-  std::optional<double> rolling_radius;    // mm
+  double speed = 0.0;                            // mm/ms
+  std::optional<double> rolling_radius;          // mm
   double settle_duration = 0.0, duration = 0.0;  // ms
   double linear_bulk_viscosity = 0.06, quadratic_bulk_viscosity = 1.2;
-  double scale_factor = 0.9;               // of the stable increment
+  double scale_factor = 0.9;  // of the stable increment
 };
 
 struct OutputSpec {

@@ -14,7 +14,8 @@ constexpr std::int32_t last_increment_only = 1000000;
 enum StepRow { seat, inflate, contact, load };
 
 std::int32_t node_set_row(const Model& model, const std::string& name) {
-  const auto found = std::find_if(model.node_sets.begin(), model.node_sets.end(), [&](const NodeSet& set) { return set.name == name; });
+  const auto found = std::find_if(model.node_sets.begin(), model.node_sets.end(),
+                                  [&](const NodeSet& set) { return set.name == name; });
   return static_cast<std::int32_t>(found - model.node_sets.begin());
 }
 
@@ -39,16 +40,16 @@ BoundaryCondition moved(std::int32_t node, std::int32_t dof, double magnitude) {
 /// Writes the steps in order; each lists everything that acts in it.
 class StepAuthor {
  public:
-  StepAuthor(const TyreSpec& spec, const TyreSection& section, const WheelAndRoad& rig, const TyreMesh& mesh, Model& model)
+  StepAuthor(const TyreSpec& spec, const TyreSection& section, const WheelAndRoad& rig, const TyreMesh& mesh,
+             Model& model)
       : spec_(spec), section_(section), rig_(rig), mesh_(mesh), model_(model) {}
 
-  void write_static_steps() {
-    model_.steps = {seating(), inflation(), touching(), loading()};
-  }
+  void write_static_steps() { model_.steps = {seating(), inflation(), touching(), loading()}; }
 
   void write_rolling_steps() {
     const auto& rolling = spec_.rolling;
-    if (rolling.settle_duration > 0.0) model_.steps.push_back(rolling_step("SETTLE", rolling.settle_duration, spec_.output.settle_frames, true));
+    if (rolling.settle_duration > 0.0)
+      model_.steps.push_back(rolling_step("SETTLE", rolling.settle_duration, spec_.output.settle_frames, true));
     model_.steps.push_back(rolling_step("ROLL", rolling.duration, spec_.output.frames, rolling.settle_duration <= 0.0));
   }
 
@@ -110,8 +111,8 @@ class StepAuthor {
     step.concentrated_loads.push_back(load);
   }
 
-  /// The nodes on the rim move axially to the rim's width. Membranes alone have no stiffness out of their surface before they are
-  /// stressed: a small pressure, or stabilization, carries them here.
+  /// The nodes on the rim move axially to the rim's width. Membranes alone have no stiffness out of their surface
+  /// before they are stressed: a small pressure, or stabilization, carries them here.
   Step seating() const {
     auto step = static_step("SEAT", 0.25, 0.5);
     step.static_procedure.stabilize = spec_.statics.stabilize;
@@ -144,8 +145,8 @@ class StepAuthor {
     return step;
   }
 
-  /// The road rises to the tyre and presses on it; a force of about the size that it then meets is already there, so that
-  /// setting the road free in the next step disturbs little.
+  /// The road rises to the tyre and presses on it; a force of about the size that it then meets is already there, so
+  /// that setting the road free in the next step disturbs little.
   Step touching() const {
     auto step = static_step("CONTACT", 0.2, 0.2);
     hold(step, rig_.hub, true);
@@ -242,7 +243,8 @@ void add_hub_inertia(const RimSpec& rim, std::int32_t hub, Model& model) {
 }  // namespace
 
 double rolling_radius(const TyreSpec& spec, const TyreSection& section) {
-  return spec.rolling.rolling_radius.value_or(section.outer_radius() - spec.statics.load / spec.statics.expected_stiffness / 3.0);
+  return spec.rolling.rolling_radius.value_or(section.outer_radius() -
+                                              spec.statics.load / spec.statics.expected_stiffness / 3.0);
 }
 
 WheelAndRoad add_rim_and_road(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh, Model& model) {
@@ -288,7 +290,8 @@ WheelAndRoad add_rim_and_road(const TyreSpec& spec, const TyreSection& section, 
   return rig;
 }
 
-void add_steps(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh, const WheelAndRoad& rig, Model& model) {
+void add_steps(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh, const WheelAndRoad& rig,
+               Model& model) {
   StepAuthor author(spec, section, rig, mesh, model);
   author.write_static_steps();
   if (!spec.rolling.enabled) return;

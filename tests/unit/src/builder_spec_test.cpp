@@ -1,0 +1,135 @@
+// The tyre description: every bad line is told with file, line, table, key and cure.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "builder_sample.hpp"
+#include "builders/spec_table.hpp"
+#include "builders/tyre_lamina.hpp"
+#include "builders/tyre_spec.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+namespace {
+
+std::string faults_of(const std::string& text) {
+  try {
+    read_tyre_spec(text, "t.toml");
+  } catch (const InputError& error) {
+    std::string all;
+    for (const auto& message : error.messages()) all += message + "\n";
+    return all;
+  }
+  return "accepted";
+}
+
+/// "t.toml:LINE" of the first occurrence of a text.
+std::string at_line_of(const std::string& needle, const std::string& text) {
+  return "t.toml:" + std::to_string(1 + std::count(text.begin(), text.begin() + text.find(needle), '\n'));
+}
+
+std::string faults_with(const std::string& from, const std::string& to) {
+  return faults_of(sample_with(from, to));
+}
+
+TEST(TyreSpec, ReadsTheSample) {
+  const auto spec = read_tyre_spec(sample_tyre(2), "t.toml");
+  EXPECT_EQ(spec.model, 2);
+  EXPECT_EQ(spec.regions[0].points.size(), 3u);
+  EXPECT_DOUBLE_EQ(spec.regions[1].points[1].cap, 4.2);
+  EXPECT_EQ(spec.regions[0].plies.size(), 3u);
+  EXPECT_DOUBLE_EQ(spec.statics.expected_stiffness, 185.0);
+}
+
+TEST(TyreSpec, NamesTheNearestKnownKey) {
+  const auto misspelt = sample_with("clearance = 5.0", "clearance = 5.0\nbehnd = 3.0");
+  EXPECT_EQ(faults_of(misspelt),
+            at_line_of("behnd", misspelt) + ": error: [road] behnd: unknown key; did you mean \"behind\"?\n");
+  EXPECT_NE(faults_with("[rim]", "[wheels]\na = 1\n[rim]").find("error: wheels: unknown key"), std::string::npos);
+}
+
+TEST(TyreSpec, TellsMissingKeysAndTables) {
+  EXPECT_EQ(faults_with("width = 127.0\n", ""),
+            at_line_of("[rim]", sample_tyre()) + ": error: [rim] width: missing; add this key to the table\n");
+  EXPECT_NE(faults_with("[mesh]", "[road.mesh]").find(": error: mesh: missing"), std::string::npos);
+}
+
+TEST(TyreSpec, TellsValuesOutOfRangeWithTheirUnit) {
+  EXPECT_NE(faults_with("pressure = 0.22", "pressure = -0.22")
+                .find("[static] pressure: -0.22 is out of range; write a number > 0 MPa"),
+            std::string::npos);
+  EXPECT_NE(faults_with("mass = 5000.0", "mass = \"heavy\"").find("[rim] mass: not a number; write a number > 0 g"),
+            std::string::npos);
+  EXPECT_NE(faults_with("model = 3", "model = 4").find("model: write a whole number from 1 to 3"), std::string::npos);
+  EXPECT_NE(
+      faults_with("cord_area = 0.25", "cord_area = 1.25").find("[ply.body] cord_area: cords fill 100 % of the ply"),
+      std::string::npos);
+}
+
+TEST(TyreSpec, TellsNamesThatNothingDescribes) {
+  EXPECT_NE(faults_with("cord = \"polyester\"", "cord = \"polyster\"")
+                .find("[ply.body] cord: \"polyster\" is not described in this file; did you mean \"polyester\"?"),
+            std::string::npos);
+}
+
+TEST(TyreSpec, RefusesImpossibleGeometry) {
+  EXPECT_NE(faults_with("[236.0, 82.2, 3.5]", "[266.0, 82.2, 3.5]").find("the line must fall from crown to toe"),
+            std::string::npos);
+  EXPECT_NE(
+      faults_with("[236.0, 82.2, 3.5]", "[236.0, 82.2]").find("[section.sidewall] points: row 2 needs 3 to 3 numbers"),
+      std::string::npos);
+  EXPECT_NE(faults_with("top_fillet = 4.0", "top_fillet = 24.0").find("higher than the obstacle"), std::string::npos);
+  EXPECT_NE(faults_with("ahead = 1000.0", "ahead = 500.0").find("leaves the road"), std::string::npos);
+}
+
+TEST(TyreSpec, CollectsAllFaults) {
+  const auto faults = faults_of(sample_with("spacing = 1.25", "spacing = 0.0") + "colour = 1\n");
+  EXPECT_NE(faults.find("[ply.body] spacing"), std::string::npos);
+  EXPECT_NE(faults.find("[output] colour"), std::string::npos);
+}
+
+TEST(TyreSpec, TellsTheLineOfASyntaxError) {
+  const auto broken = sample_with("frames = 20", "frames = = 20");
+  EXPECT_EQ(faults_of(broken).find(at_line_of("frames", broken) + ": error: TOML syntax: "), 0u) << faults_of(broken);
+}
+
+TEST(SpecTable, NearestWordByEdits) {
+  EXPECT_EQ(nearest_word("presure", {"load", "pressure"}), "pressure");
+  EXPECT_EQ(nearest_word("xyz", {"load", "pressure"}), "");
+}
+
+// By hand: fraction = 0.25 / (1.25 * 1.0) = 0.2; rubber shear modulus 2 (0.4 + 0.1) = 1, Young's modulus 2 * 1.49
+// = 2.98 MPa.
+TEST(TyreLamina, RuleOfMixturesAndHalpinTsai) {
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  const auto lamina = make_lamina(spec.plies[1], spec);  // names are sorted: belt, body, liner
+  EXPECT_NEAR(lamina.cord_fraction, 0.2, 1e-15);
+  EXPECT_NEAR(lamina.modulus_1, 0.2 * 9870.0 + 0.8 * 2.98, 1e-9);
+  EXPECT_NEAR(lamina.poisson_12, 0.2 * 0.3 + 0.8 * 0.49, 1e-12);
+  EXPECT_NEAR(lamina.density, 0.2 * 1.38e-3 + 0.8 * 1.1e-3, 1e-15);
+  const double ratio = 9870.0 / 2.98, eta = (ratio - 1.0) / (ratio + 2.0);
+  EXPECT_NEAR(lamina.modulus_2, 2.98 * (1.0 + 0.4 * eta) / (1.0 - 0.2 * eta), 1e-9);
+  // Stiff fibres: G12 tends to G (1 + f) / (1 - f) = 1.5 MPa; 3796 MPa of cord shear leave 0.05 %.
+  EXPECT_NEAR(lamina.shear_12, 1.5, 1e-3);
+  EXPECT_NEAR(spec.plies[1].angle, std::acos(0.0), 1e-12);
+}
+
+TEST(TyreLamina, RubberAloneIsIsotropic) {
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  const auto lamina = make_lamina(spec.plies[2], spec);
+  EXPECT_DOUBLE_EQ(lamina.modulus_1, lamina.modulus_2);
+  EXPECT_NEAR(lamina.shear_12, lamina.modulus_1 / (2.0 * (1.0 + lamina.poisson_12)), 1e-12);
+}
+
+TEST(TyreLamina, RadialPlyIsStiffAlongTheMeridian) {
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  const auto stiffness = laminate_stiffness({1}, spec);
+  const auto lamina = make_lamina(spec.plies[1], spec);
+  const double scale = 1.0 / (1.0 - lamina.poisson_12 * lamina.poisson_12 * lamina.modulus_2 / lamina.modulus_1);
+  EXPECT_NEAR(stiffness.meridional, scale * lamina.modulus_1, 1e-6);
+  EXPECT_NEAR(stiffness.circumferential, scale * lamina.modulus_2, 1e-6);
+}
+
+}  // namespace
+}  // namespace balocco
