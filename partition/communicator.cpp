@@ -1,6 +1,5 @@
 #include "communicator.hpp"
 
-#include <algorithm>
 #include <array>
 #include <exception>
 
@@ -82,15 +81,11 @@ void Communicator::maximum(std::span<double> values) const {
 }
 
 void Communicator::sum(std::span<ExactSum> sums) const {
-  std::vector<std::int64_t> words;
-  words.reserve(sums.size() * ExactSum::word_count);
-  for (auto& sum : sums) words.insert(words.end(), sum.words().begin(), sum.words().end());
-  MPI_Allreduce(MPI_IN_PLACE, words.data(), static_cast<int>(words.size()), MPI_INT64_T, MPI_SUM, handle_);
-  auto word = words.begin();
-  for (auto& sum : sums) {
-    std::copy_n(word, ExactSum::word_count, sum.words().begin());
-    word += ExactSum::word_count;
-  }
+  // An accumulator is nothing but its words, so that an array of them travels as it lies.
+  static_assert(sizeof(ExactSum) == ExactSum::word_count * sizeof(std::int64_t));
+  if (sums.empty()) return;
+  MPI_Allreduce(MPI_IN_PLACE, sums.front().words().data(), static_cast<int>(sums.size() * ExactSum::word_count),
+                MPI_INT64_T, MPI_SUM, handle_);
 }
 
 Communicator::Located Communicator::minimum(Located local) const {

@@ -10,13 +10,13 @@ namespace balocco {
 
 namespace {
 
-/// Velocity at the end of the last increment: half an increment beyond the half-step value.
+/// Velocity at the present instant: half an increment before the half-step value.
 Point velocity_at_end(const Analysis& analysis, std::int32_t node) {
   const auto& state = analysis.current;
   Point velocity{};
   if (state.dynamic)
     for (int i = 0; i < 3; ++i)
-      velocity[i] = state.velocity[4 * node + i] + 0.5 * state.time_increment * analysis.acceleration[4 * node + i];
+      velocity[i] = state.velocity[4 * node + i] - 0.5 * state.time_increment * analysis.acceleration[4 * node + i];
   return velocity;
 }
 
@@ -78,7 +78,7 @@ void angular_velocity(const Analysis& analysis, std::span<double> values) {
   on_reference_nodes(analysis, values, [&](std::int32_t body) {
     Point at_end = analysis.current.rigid_bodies[body].angular_velocity;
     for (int i = 0; i < 3; ++i)
-      at_end[i] += 0.5 * analysis.current.time_increment * analysis.body_angular_acceleration[body][i];
+      at_end[i] -= 0.5 * analysis.current.time_increment * analysis.body_angular_acceleration[body][i];
     return at_end;
   });
 }

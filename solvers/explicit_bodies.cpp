@@ -1,0 +1,327 @@
+#include "explicit_bodies.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "constraints/rigid_body.hpp"
+#include "elements/element_type.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+Vector3<double> vector(const Point& point) {
+  return {point};
+}
+
+/// Components along the degrees of freedom of a global pair (translation, rotation), and back.
+Vector6 along(const Matrix3<double>& axes, const Vector3<double>& translation, const Vector3<double>& rotation) {
+  const auto t = axes * translation, r = axes * rotation;
+  return (Vector6() << t[0], t[1], t[2], r[0], r[1], r[2]).finished();
+}
+
+struct Pair {
+  Vector3<double> translation, rotation;
+};
+
+Pair global(const Matrix3<double>& axes, const Vector6& components) {
+  const auto back = transpose(axes);
+  return {back * Vector3<double>{{components[0], components[1], components[2]}},
+          back * Vector3<double>{{components[3], components[4], components[5]}}};
+}
+
+Matrix3<double> turned(const Matrix3<double>& rotation, const Matrix3<double>& tensor) {
+  return rotation * tensor * transpose(rotation);
+}
+
+}  // namespace
+
+RigidDynamics::RigidDynamics(const Analysis& analysis, const Step& step) : step_(step) {
+  const Model& model = analysis.model;
+  bodies_.resize(model.rigid_bodies.size());
+  sums_.resize(6 * bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    auto& body = bodies_[i];
+    const auto row = model.rigid_bodies[i].reference_node;
+    body.reference = analysis.domain.local_node[row];
+    if (const auto* axes = analysis.directions.find(row)) body.axes = *axes;
+    body.nodes.push_back({body.reference, analysis.domain.owned[body.reference], {}});
+    for (const auto& carried : analysis.current.rigid_bodies[i].nodes) {
+      body.reach = std::max(body.reach, std::sqrt(dot(vector(carried.offset), vector(carried.offset))));
+      if (const auto node = analysis.domain.local_node[carried.node]; node >= 0)
+        body.nodes.push_back({node, analysis.domain.owned[node], carried.offset});
+    }
+  }
+  for (const auto& condition : step.boundary) {
+    const auto node = analysis.domain.local_node[condition.node];
+    if (node < 0) continue;
+    if (const auto index = analysis.reference_of(node); index >= 0)
+      bodies_[index].condition[condition.dof] = &condition;
+  }
+  sum_inertia(analysis);
+  add_rotary_inertia(analysis);
+  refuse_massless(analysis);
+}
+
+void RigidDynamics::sum_inertia(const Analysis& analysis) {
+  constexpr std::size_t moments = 10;  // 1; x y z; xx yy zz xy xz yz
+  std::vector<ExactSum> sums(moments * bodies_.size());
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    for (const auto& [node, owned, r] : bodies_[i].nodes) {
+      if (!owned) continue;
+      const double mass = analysis.nodal_mass[node];
+      const std::array<double, moments> products{1.0,         r[0],        r[1],        r[2],        r[0] * r[0],
+                                                 r[1] * r[1], r[2] * r[2], r[0] * r[1], r[0] * r[2], r[1] * r[2]};
+      for (std::size_t k = 0; k < moments; ++k) sums[moments * i + k].add(mass * products[k]);
+    }
+  }
+  analysis.communicator.sum(std::span<ExactSum>(sums));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto sum = [&](std::size_t k) { return sums[moments * i + k].value(); };
+    bodies_[i].mass = sum(0);
+    bodies_[i].first_moment = {{sum(1), sum(2), sum(3)}};
+    bodies_[i].inertia = {
+        {sum(5) + sum(6), -sum(7), -sum(8), -sum(7), sum(4) + sum(6), -sum(9), -sum(8), -sum(9), sum(4) + sum(5)}};
+  }
+}
+
+void RigidDynamics::add_rotary_inertia(const Analysis& analysis) {
+  const Model& model = analysis.model;
+  for (const auto& table : model.elements) {
+    if (table.type->section != Section::Kind::rotary_inertia) continue;
+    for (std::int32_t row = 0; row < table.size(); ++row) {
+      const auto& given = model.sections[table.section[row]].inertia;
+      for (std::size_t i = 0; i < bodies_.size(); ++i)
+        if (model.rigid_bodies[i].reference_node == table.connectivity[row])
+          bodies_[i].inertia = bodies_[i].inertia + Matrix3<double>{{given[0], given[3], given[4], given[3], given[1],
+                                                                     given[5], given[4], given[5], given[2]}};
+    }
+  }
+}
+
+void RigidDynamics::refuse_massless(const Analysis& analysis) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto mass = mass_matrix(bodies_[i], rotation_matrix(analysis.current.rigid_bodies[i]));
+    for (int dof = 0; dof < 6; ++dof) {
+      if (bodies_[i].condition[dof] != nullptr || mass(dof, dof) > 0.0) continue;
+      const auto& body = analysis.model.rigid_bodies[i];
+      throw InputError(
+          fmt::format("{}: error: *RIGID BODY: degree of freedom {} of reference node {} is free in step {} but "
+                      "has no {}; constrain it or give the body a {} element",
+                      analysis.model.where(body.location), dof + 1, analysis.model.nodes.id[body.reference_node],
+                      step_.name, dof < 3 ? "mass" : "rotary inertia", dof < 3 ? "MASS" : "ROTARYI"));
+    }
+  }
+}
+
+Matrix6 RigidDynamics::mass_matrix(const Body& body, const Matrix3<double>& rotation) const {
+  const auto c = body.axes * (rotation * body.first_moment);
+  const auto inertia = turned(body.axes, turned(rotation, body.inertia));
+  Matrix6 mass = Matrix6::Zero();
+  for (int i = 0; i < 3; ++i) mass(i, i) = body.mass;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) mass(3 + i, 3 + j) = inertia(i, j);
+  // The moment of m a about the reference node is (m c) x a; the upper right block is the transpose.
+  const double coupling[3][3] = {{0.0, -c[2], c[1]}, {c[2], 0.0, -c[0]}, {-c[1], c[0], 0.0}};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) mass(3 + i, j) = mass(j, 3 + i) = coupling[i][j];
+  return mass;
+}
+
+Vector6 RigidDynamics::inertia_forces(const Body& body, const Matrix3<double>& rotation,
+                                      const Vector3<double>& spin) const {
+  const auto centrifugal = cross(spin, cross(spin, rotation * body.first_moment));
+  const auto gyroscopic = cross(spin, turned(rotation, body.inertia) * spin);
+  return along(body.axes, centrifugal, gyroscopic);
+}
+
+RigidDynamics::Motion RigidDynamics::motion(const Analysis& analysis, const Body& body, std::size_t index) const {
+  const auto& state = analysis.current.rigid_bodies[index];
+  const auto& origin = analysis.model.nodes.coordinates[analysis.model.rigid_bodies[index].reference_node];
+  return {along(body.axes, vector(state.position) - vector(origin), vector(state.rotation)),
+          along(body.axes, vector(state.velocity), vector(state.angular_velocity))};
+}
+
+void RigidDynamics::refuse_jumps(const Analysis& analysis) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto now = motion(analysis, bodies_[i], i);
+    for (int dof = 0; dof < 6; ++dof)
+      if (const auto* condition = bodies_[i].condition[dof])
+        refuse_jump(analysis.model, *condition, now.displacement[dof]);
+  }
+}
+
+void RigidDynamics::set_initial_velocities(Analysis& analysis, const Instant& instant) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    auto& state = analysis.current.rigid_bodies[i];
+    const auto now = motion(analysis, bodies_[i], i);
+    Vector6 velocity = now.velocity;
+    for (int dof = 0; dof < 6; ++dof)
+      if (const auto* condition = bodies_[i].condition[dof])
+        velocity[dof] = prescribed_initial_velocity(analysis.model, step_, *condition, instant,
+                                                    {now.displacement[dof], now.velocity[dof]});
+    const auto [translation, rotation] = global(bodies_[i].axes, velocity);
+    state.velocity = translation.component;
+    state.angular_velocity = rotation.component;
+    set_node_velocities(analysis, i, 0.0);
+  }
+}
+
+void RigidDynamics::sum_forces(const Analysis& analysis, const double* force, const std::vector<Point>& moments) {
+  if (bodies_.empty()) return;
+  for (auto& sum : sums_) sum.clear();
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto rotation = rotation_matrix(analysis.current.rigid_bodies[i]);
+    for (const auto& [node, owned, offset] : bodies_[i].nodes) {
+      if (!owned) continue;
+      const double* f = force + 4 * static_cast<std::ptrdiff_t>(node);
+      const Vector3<double> nodal{{f[0], f[1], f[2]}};
+      const auto moment = cross(rotation * vector(offset), nodal);
+      for (int c = 0; c < 3; ++c) {
+        sums_[6 * i + c].add(nodal[c]);
+        sums_[6 * i + 3 + c].add(moment[c]);
+      }
+    }
+  }
+  for (const auto pair : step_.active_contact_pairs) {
+    const auto& contact = analysis.contacts[pair];
+    const auto master = static_cast<std::size_t>(contact.master_body());
+    contact.add_master_resultant(analysis.current.position.data(), analysis.current.rigid_bodies[master],
+                                 analysis.current.contact[pair], std::span<ExactSum, 6>(&sums_[6 * master], 6));
+  }
+  analysis.communicator.sum(std::span<ExactSum>(sums_));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto sum = [&](std::size_t k) { return sums_[6 * i + k].value(); };
+    const Vector3<double> moment{{sum(3) + moments[i][0], sum(4) + moments[i][1], sum(5) + moments[i][2]}};
+    bodies_[i].force = along(bodies_[i].axes, {{sum(0), sum(1), sum(2)}}, moment);
+  }
+}
+
+Vector6 RigidDynamics::prescribed(const Analysis& analysis, const Body& body, const Motion& now,
+                                  const Instant& instant) const {
+  Vector6 velocity = now.velocity;
+  for (int dof = 0; dof < 6; ++dof)
+    if (const auto* condition = body.condition[dof])
+      velocity[dof] =
+          prescribed_velocity(analysis.model, step_, *condition, instant, {now.displacement[dof], now.velocity[dof]});
+  return velocity;
+}
+
+void RigidDynamics::solve(const RigidBodyState& state, Body& body, const Vector6& old_velocity, const Instant& instant,
+                          const Vector6& wanted) const {
+  const auto rotation = rotation_matrix(state);
+  const Matrix6 mass = mass_matrix(body, rotation);
+  // Rows of prescribed dofs become identities, so that one factorisation of fixed size serves every combination.
+  Matrix6 reduced = mass;
+  Vector6 known = Vector6::Zero();
+  for (int dof = 0; dof < 6; ++dof) {
+    if (body.condition[dof] == nullptr) continue;
+    known[dof] = (wanted[dof] - old_velocity[dof]) / instant.average();
+    reduced.row(dof).setZero();
+    reduced.col(dof).setZero();
+    reduced(dof, dof) = 1.0;
+  }
+  const Eigen::PartialPivLU<Matrix6> factors(reduced);
+  body.spin = vector(state.angular_velocity);
+  Vector6 load;
+  // Gyroscopic terms belong to the spin at the instant, which depends on the acceleration sought: three corrections
+  // take the error to (spin x increment)^4, below rounding for any increment that resolves the motion.
+  for (int correction = 0; correction < 3; ++correction) {
+    load = body.force - inertia_forces(body, rotation, body.spin);
+    Vector6 right = load - mass * known;
+    for (int dof = 0; dof < 6; ++dof)
+      if (body.condition[dof] != nullptr) right[dof] = known[dof];
+    body.acceleration = factors.solve(right);
+    const auto change = global(body.axes, body.acceleration).rotation;
+    body.spin = vector(state.angular_velocity) + 0.5 * instant.previous * change;
+  }
+  body.reaction = mass * body.acceleration - load;
+  for (int dof = 0; dof < 6; ++dof)
+    if (body.condition[dof] == nullptr) body.reaction[dof] = 0.0;
+}
+
+void RigidDynamics::accelerate(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments) {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    auto& body = bodies_[i];
+    auto& state = analysis.current.rigid_bodies[i];
+    const auto now = motion(analysis, body, i);
+    const Vector6 wanted = prescribed(analysis, body, now, instant);
+    solve(state, body, now.velocity, instant, wanted);
+    Vector6 velocity = now.velocity + instant.average() * body.acceleration;
+    for (int dof = 0; dof < 6; ++dof)
+      if (body.condition[dof] != nullptr) velocity[dof] = wanted[dof];
+    const auto [translation, rotation] = global(body.axes, velocity);
+    state.velocity = translation.component;
+    state.angular_velocity = rotation.component;
+
+    const Vector6 path = instant.previous * now.velocity + instant.next * velocity;
+    const auto turn = global(body.axes, path).rotation;
+    analysis.current.nodal_work[body.reference].external +=
+        0.5 * (body.reaction.dot(path) + dot(vector(moments[i]), turn));
+    set_node_velocities(analysis, i, instant.next);
+  }
+}
+
+void RigidDynamics::set_node_velocities(Analysis& analysis, std::size_t index, double increment) const {
+  RigidBodyState middle = {.position = {},
+                           .orientation = analysis.current.rigid_bodies[index].orientation,
+                           .velocity = analysis.current.rigid_bodies[index].velocity,
+                           .angular_velocity = analysis.current.rigid_bodies[index].angular_velocity,
+                           .rotation = {},
+                           .nodes = {}};
+  const auto spin = vector(middle.angular_velocity);
+  rotate(middle, (0.5 * increment * spin).component);
+  const auto rotation = rotation_matrix(middle);
+  for (const auto& carried : bodies_[index].nodes) {
+    const auto turning = cross(spin, rotation * vector(carried.offset));
+    for (int c = 0; c < 3; ++c) analysis.current.velocity[4 * carried.node + c] = middle.velocity[c] + turning[c];
+  }
+}
+
+void RigidDynamics::advance(Analysis& analysis, double increment) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    auto& state = analysis.current.rigid_bodies[i];
+    for (int c = 0; c < 3; ++c) state.position[c] += increment * state.velocity[c];
+    rotate(state, (increment * vector(state.angular_velocity)).component);
+    const auto rotation = rotation_matrix(state);
+    for (const auto& carried : bodies_[i].nodes) {
+      const auto arm = rotation * vector(carried.offset);
+      for (int c = 0; c < 3; ++c) analysis.current.position[4 * carried.node + c] = state.position[c] + arm[c];
+    }
+  }
+}
+
+void RigidDynamics::add_to_output(Analysis& analysis) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto& body = bodies_[i];
+    const auto [force, moment] = global(body.axes, body.reaction);
+    analysis.body_reaction[i] = {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
+    const auto [linear, angular] = global(body.axes, body.acceleration);
+    analysis.body_angular_acceleration[i] = angular.component;
+    const auto rotation = rotation_matrix(analysis.current.rigid_bodies[i]);
+    for (const auto& carried : body.nodes) {
+      const auto arm = rotation * vector(carried.offset);
+      const auto acceleration = linear + cross(angular, arm) + cross(body.spin, cross(body.spin, arm));
+      std::copy_n(acceleration.component.data(), 3, &analysis.acceleration[4 * carried.node]);
+    }
+  }
+}
+
+RigidDynamics::Balance RigidDynamics::balance() const {
+  Balance balance;
+  for (const auto& body : bodies_) {
+    for (int dof = 0; dof < 6; ++dof) {
+      const bool is_moment = dof >= 3;
+      if (is_moment && body.reach == 0.0) continue;
+      const double scale = is_moment ? 1.0 / body.reach : 1.0;
+      const double squared = scale * scale * body.force[dof] * body.force[dof];
+      (body.condition[dof] != nullptr ? balance.reactions : balance.unbalanced) += squared;
+    }
+  }
+  return balance;
+}
+
+}  // namespace balocco

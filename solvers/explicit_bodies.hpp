@@ -1,0 +1,90 @@
+// Rigid bodies in an explicit step: six degrees of freedom at the reference node, prescribed or free one by one.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "explicit_motion.hpp"
+#include "math/exact_sum.hpp"
+#include "math/tensor.hpp"
+
+namespace balocco {
+
+using Vector6 = Eigen::Matrix<double, 6, 1>;
+using Matrix6 = Eigen::Matrix<double, 6, 6>;
+
+/// Every rank computes the motion of every body, alike: forces are summed exactly. With reference acceleration a,
+/// angular acceleration alpha, spin w, mass m, vector c from the reference node to the centre of mass, inertia I about
+/// the reference node:
+///   F = m (a + alpha x c + w x (w x c)),   T = m c x a + I alpha + w x (I w)
+/// restricted to the free degrees of freedom; the others give the reactions.
+class RigidDynamics {
+ public:
+  /// Collective. @throws InputError where a free degree of freedom has no mass or inertia.
+  RigidDynamics(const Analysis& analysis, const Step& step);
+
+  bool empty() const { return bodies_.empty(); }
+  void refuse_jumps(const Analysis& analysis) const;
+  /// Prescribed components of the motion at the start of the first dynamic step, then the velocities of all carried
+  /// nodes.
+  void set_initial_velocities(Analysis& analysis, const Instant& instant) const;
+
+  /// Force and moment about the reference node of all nodal forces (4 a node), of contact on masters, and of `moments`.
+  /// Collective.
+  void sum_forces(const Analysis& analysis, const double* force, const std::vector<Point>& moments);
+  /// Accelerations, reactions and their work; then the velocities of bodies and of their nodes over the next increment.
+  void accelerate(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments);
+  /// Moves bodies over an increment and puts their nodes where they belong.
+  void advance(Analysis& analysis, double increment) const;
+
+  /// Reactions and accelerations of bodies and of their nodes, for output.
+  void add_to_output(Analysis& analysis) const;
+
+  /// Squares of the unbalanced forces on free degrees of freedom and of the reactions; moments count with 1 / reach of
+  /// the body.
+  struct Balance {
+    double unbalanced = 0.0, reactions = 0.0;
+  };
+  Balance balance() const;
+
+ private:
+  struct CarriedNode {
+    std::int32_t node = -1;  // local
+    bool owned = false;
+    Point offset{};  // in the body's frame
+  };
+  struct Body {
+    std::int32_t reference = -1;  // local node
+    double mass = 0.0, reach = 0.0;
+    Vector3<double> first_moment{};                      // body frame, about the reference node
+    Matrix3<double> inertia{};                           // body frame, about the reference node
+    Matrix3<double> axes = Matrix3<double>::identity();  // rows: directions of the degrees of freedom
+    std::array<const BoundaryCondition*, 6> condition{};
+    std::vector<CarriedNode> nodes;
+    // At the current instant, along the degrees of freedom:
+    Vector6 force = Vector6::Zero(), acceleration = Vector6::Zero(), reaction = Vector6::Zero();
+    Vector3<double> spin{};  // at the instant, global
+  };
+  struct Motion {
+    Vector6 displacement, velocity;
+  };
+
+  void sum_inertia(const Analysis& analysis);
+  void add_rotary_inertia(const Analysis& analysis);
+  void refuse_massless(const Analysis& analysis) const;
+  Matrix6 mass_matrix(const Body& body, const Matrix3<double>& rotation) const;
+  Vector6 inertia_forces(const Body& body, const Matrix3<double>& rotation, const Vector3<double>& spin) const;
+  Motion motion(const Analysis& analysis, const Body& body, std::size_t index) const;
+  Vector6 prescribed(const Analysis& analysis, const Body& body, const Motion& motion, const Instant& instant) const;
+  void solve(const RigidBodyState& state, Body& body, const Vector6& old_velocity, const Instant& instant,
+             const Vector6& wanted) const;
+  void set_node_velocities(Analysis& analysis, std::size_t index, double increment) const;
+
+  const Step& step_;
+  std::vector<Body> bodies_;
+  std::vector<ExactSum> sums_;  // 6 a body
+};
+
+}  // namespace balocco

@@ -1,0 +1,156 @@
+#include "explicit_motion.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/diagnostics.hpp"
+#include "step_driver.hpp"
+
+namespace balocco {
+
+namespace {
+
+using Kind = BoundaryCondition::Kind;
+
+/// Displacements of earlier steps and displacements without a course in time hold the node where it is.
+bool holds(const BoundaryCondition& condition) {
+  return condition.fixed || condition.propagated || condition.amplitude < 0;
+}
+
+double component(const double* vector, const Point& direction) {
+  return vector[0] * direction[0] + vector[1] * direction[1] + vector[2] * direction[2];
+}
+
+void add(double* vector, double factor, const Point& direction) {
+  for (int c = 0; c < 3; ++c) vector[c] += factor * direction[c];
+}
+
+}  // namespace
+
+double prescribed_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
+                           const Instant& instant, const MotionComponent& motion) {
+  const auto value_after = [&](double delay) {
+    return condition.magnitude *
+           amplitude_factor(model, step, condition.amplitude, instant.step_time + delay, instant.total_time + delay);
+  };
+  switch (condition.kind) {
+    case Kind::velocity:
+      return value_after(0.5 * instant.next);
+    case Kind::acceleration:
+      return motion.velocity + instant.average() * value_after(0.0);
+    default:
+      if (holds(condition)) return 0.0;
+      if (instant.next == 0.0) return motion.velocity;  // the step is over: no course to follow
+      return (value_after(instant.next) - motion.displacement) / instant.next;
+  }
+}
+
+double prescribed_initial_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
+                                   const Instant& instant, const MotionComponent& motion) {
+  const Instant now{instant.step_time, instant.total_time, 0.0, 0.0};
+  if (condition.kind == Kind::displacement && holds(condition)) return 0.0;
+  return prescribed_velocity(model, step, condition, now, motion);
+}
+
+void refuse_jump(const Model& model, const BoundaryCondition& condition, double displacement) {
+  if (condition.kind != Kind::displacement || condition.fixed || condition.propagated || condition.amplitude >= 0)
+    return;
+  constexpr double tolerance = 1e-6;  // of the displacement: rounding of the steps before
+  if (condition.magnitude == 0.0 ||
+      std::abs(condition.magnitude - displacement) <= tolerance * std::abs(condition.magnitude))
+    return;
+  throw InputError(fmt::format(
+      "{}: error: *BOUNDARY: a displacement of {} without AMPLITUDE would make node {} jump from {} at the start of an "
+      "explicit step; give it an AMPLITUDE or prescribe a velocity",
+      model.where({condition.file, condition.line}), condition.magnitude, model.nodes.id[condition.node],
+      displacement));
+}
+
+NodalConstraints::NodalConstraints(const Analysis& analysis, const Step& step) {
+  const Model& model = analysis.model;
+  for (const auto& condition : step.boundary) {
+    const auto node = analysis.domain.local_node[condition.node];
+    if (node < 0 || condition.dof >= 3 || analysis.reference_of(node) >= 0) continue;
+    if (const auto body = analysis.carrier(node); body >= 0) {
+      if (condition.propagated) continue;  // the node was attached after the condition was said
+      throw InputError(
+          fmt::format("{}: error: *BOUNDARY: node {} moves with a rigid body; constrain its reference node {}",
+                      model.where({condition.file, condition.line}), model.nodes.id[condition.node],
+                      model.nodes.id[model.rigid_bodies[body].reference_node]));
+    }
+    constraints_.push_back({.node = node,
+                            .direction = analysis.directions.direction(condition.node, condition.dof),
+                            .condition = &condition});
+  }
+}
+
+MotionComponent NodalConstraints::motion(const Analysis& analysis, const Constraint& constraint) const {
+  const auto& origin = analysis.model.nodes.coordinates[constraint.condition->node];
+  const double* position = &analysis.current.position[4 * constraint.node];
+  return {component(position, constraint.direction) - component(origin.data(), constraint.direction),
+          component(&analysis.current.velocity[4 * constraint.node], constraint.direction)};
+}
+
+void NodalConstraints::refuse_jumps(const Analysis& analysis) const {
+  for (const auto& constraint : constraints_)
+    refuse_jump(analysis.model, *constraint.condition, motion(analysis, constraint).displacement);
+}
+
+void NodalConstraints::set_initial_velocities(Analysis& analysis, const Step& step, const Instant& instant) const {
+  for (const auto& constraint : constraints_) {
+    const auto now = motion(analysis, constraint);
+    const double wanted = prescribed_initial_velocity(analysis.model, step, *constraint.condition, instant, now);
+    add(&analysis.current.velocity[4 * constraint.node], wanted - now.velocity, constraint.direction);
+  }
+}
+
+void NodalConstraints::find_reactions(const Analysis& analysis, const Step& step, const Instant& instant,
+                                      const double* force) {
+  for (auto& constraint : constraints_) {
+    const auto now = motion(analysis, constraint);
+    constraint.old_velocity = now.velocity;
+    constraint.new_velocity = prescribed_velocity(analysis.model, step, *constraint.condition, instant, now);
+    const double acceleration = (constraint.new_velocity - constraint.old_velocity) / instant.average();
+    constraint.reaction = analysis.nodal_mass[constraint.node] * acceleration -
+                          component(force + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
+  }
+}
+
+void NodalConstraints::enforce(Analysis& analysis, const Instant& instant) const {
+  for (const auto& constraint : constraints_) {
+    double* velocity = &analysis.current.velocity[4 * constraint.node];
+    add(velocity, constraint.new_velocity - component(velocity, constraint.direction), constraint.direction);
+    // Trapezoidal: half the work of the increment before, half of the one that follows.
+    analysis.current.nodal_work[constraint.node].external +=
+        0.5 * constraint.reaction *
+        (instant.previous * constraint.old_velocity + instant.next * constraint.new_velocity);
+  }
+}
+
+void NodalConstraints::add_to_output(Analysis& analysis) const {
+  for (const auto& constraint : constraints_) {
+    add(&analysis.reaction[4 * constraint.node], constraint.reaction, constraint.direction);
+    const double mass = analysis.nodal_mass[constraint.node];
+    if (mass > 0.0) add(&analysis.acceleration[4 * constraint.node], constraint.reaction / mass, constraint.direction);
+  }
+}
+
+void NodalConstraints::remove_constrained(double* vector) const {
+  for (const auto& constraint : constraints_) {
+    double* entry = vector + 4 * static_cast<std::ptrdiff_t>(constraint.node);
+    add(entry, -component(entry, constraint.direction), constraint.direction);
+  }
+}
+
+double NodalConstraints::squared_constrained(const Domain& domain, const double* vector) const {
+  double sum = 0.0;
+  for (const auto& constraint : constraints_) {
+    const double value = component(vector + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
+    if (domain.owned[constraint.node]) sum += value * value;
+  }
+  return sum;
+}
+
+}  // namespace balocco

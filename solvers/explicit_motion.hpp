@@ -1,0 +1,61 @@
+// Motions that boundary conditions prescribe in an explicit step: of rigid bodies and of ordinary nodes alike.
+#pragma once
+
+#include <vector>
+
+#include "explicit_time.hpp"
+
+namespace balocco {
+
+/// Component of a motion before an increment, along the direction of a boundary condition.
+struct MotionComponent {
+  double displacement = 0.0;  // at the instant
+  double velocity = 0.0;      // at the middle of the previous increment
+};
+
+/// Velocity that a boundary condition wants at the middle of the next increment (at the instant itself if there is
+/// none). A displacement without amplitude holds the node where it is.
+double prescribed_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
+                           const Instant& instant, const MotionComponent& motion);
+
+/// Velocity at the start of the first dynamic step, in which boundary conditions override initial conditions.
+double prescribed_initial_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
+                                   const Instant& instant, const MotionComponent& motion);
+
+/// @throws InputError where a displacement without amplitude would make the node jump from `displacement`.
+void refuse_jump(const Model& model, const BoundaryCondition& condition, double displacement);
+
+/// Boundary conditions on ordinary nodes of this rank, in the nodes' own directions.
+class NodalConstraints {
+ public:
+  /// @throws InputError for a condition on a node that a rigid body carries.
+  NodalConstraints(const Analysis& analysis, const Step& step);
+
+  void refuse_jumps(const Analysis& analysis) const;
+  void set_initial_velocities(Analysis& analysis, const Step& step, const Instant& instant) const;
+
+  /// Before velocities change: what they shall become, and the forces that constraints exert for it.
+  void find_reactions(const Analysis& analysis, const Step& step, const Instant& instant, const double* force);
+  /// After velocities changed: sets the prescribed components and adds the work of the reactions.
+  void enforce(Analysis& analysis, const Instant& instant) const;
+
+  /// Adds reactions, and what they do to accelerations, to the analysis' arrays for output.
+  void add_to_output(Analysis& analysis) const;
+  /// Takes the constrained components out of a nodal vector (4 a node).
+  void remove_constrained(double* vector) const;
+  /// Sum of the squares of those components on owned nodes.
+  double squared_constrained(const Domain& domain, const double* vector) const;
+
+ private:
+  struct Constraint {
+    std::int32_t node = -1;  // local
+    Point direction{};
+    const BoundaryCondition* condition = nullptr;
+    double old_velocity = 0.0, new_velocity = 0.0, reaction = 0.0;
+  };
+  MotionComponent motion(const Analysis& analysis, const Constraint& constraint) const;
+
+  std::vector<Constraint> constraints_;
+};
+
+}  // namespace balocco

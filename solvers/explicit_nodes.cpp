@@ -1,0 +1,67 @@
+#include "explicit_nodes.hpp"
+
+#include <cmath>
+#include <experimental/simd>
+
+#include "explicit_scale.hpp"
+
+namespace balocco {
+
+namespace {
+
+using Four = std::experimental::fixed_size_simd<double, 4>;
+
+Four at(const double* address) {
+  return Four(address, std::experimental::element_aligned);
+}
+void put(const Four& value, double* address) {
+  value.copy_to(address, std::experimental::element_aligned);
+}
+
+/// 1 for x, y, z and 0 for the fourth slot.
+Four vector_part() {
+  return Four([](auto lane) { return lane < 3 ? 1.0 : 0.0; });
+}
+
+}  // namespace
+
+void clear_vectors(std::span<double> nodal) {
+  for (std::size_t i = 0; i < nodal.size(); i += 4) nodal[i] = nodal[i + 1] = nodal[i + 2] = 0.0;
+}
+
+void add_vectors(std::span<double> sum, std::span<const double> addend) {
+  const Four part = vector_part();
+  for (std::size_t i = 0; i < sum.size(); i += 4) put(at(&sum[i]) + part * at(&addend[i]), &sum[i]);
+}
+
+void add_mass_damping(std::span<double> force, std::span<double> damping_force, std::span<const double> coefficient,
+                      std::span<const double> velocity) {
+  for (std::size_t node = 0; node < coefficient.size(); ++node) {
+    const Four damping = coefficient[node] * at(&velocity[4 * node]);  // the fourth slot of a velocity is zero
+    put(damping, &damping_force[4 * node]);
+    put(at(&force[4 * node]) - damping, &force[4 * node]);
+  }
+}
+
+bool kick(std::span<double> velocity, std::span<const double> force, std::span<const double> inverse_mass,
+          double increment) {
+  const Four part = vector_part();
+  Four::mask_type sound(true);
+  for (std::size_t node = 0; node < inverse_mass.size(); ++node) {
+    const Four f = part * at(&force[4 * node]);
+    sound = sound && (std::experimental::abs(f) < Four(overflow_fraction * force[4 * node + 3]));  // false for NaN too
+    put(at(&velocity[4 * node]) + (increment * inverse_mass[node]) * f, &velocity[4 * node]);
+  }
+  return std::experimental::all_of(sound);
+}
+
+void drift(std::span<double> position, std::span<const double> velocity, double increment) {
+  for (std::size_t i = 0; i < position.size(); ++i) position[i] += increment * velocity[i];
+}
+
+bool has_outgrown(const double* force) {
+  const double limit = overflow_fraction * force[3];
+  return !(std::abs(force[0]) < limit && std::abs(force[1]) < limit && std::abs(force[2]) < limit);
+}
+
+}  // namespace balocco

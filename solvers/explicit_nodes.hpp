@@ -1,0 +1,30 @@
+// Passes over all nodes of a rank in the explicit loop: contiguous, without branches, four doubles at a time.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+namespace balocco {
+
+/// Zeroes the vectors and leaves the fourth slots alone.
+void clear_vectors(std::span<double> nodal);
+
+/// sum += addend, fourth slots excepted.
+void add_vectors(std::span<double> sum, std::span<const double> addend);
+
+/// damping force = coefficient * velocity, and force -= damping force.
+void add_mass_damping(std::span<double> force, std::span<double> damping_force, std::span<const double> coefficient,
+                      std::span<const double> velocity);
+
+/// velocity += increment * force / mass (`inverse_mass` zero: left alone). @return false if a force has outgrown the
+/// sum that its rounding constant (fourth slot) was made for, or is not a number: the run has blown up.
+bool kick(std::span<double> velocity, std::span<const double> force, std::span<const double> inverse_mass,
+          double increment);
+
+/// position += increment * velocity.
+void drift(std::span<double> position, std::span<const double> velocity, double increment);
+
+/// True if the force of one node is what `kick` refuses.
+bool has_outgrown(const double* force);
+
+}  // namespace balocco

@@ -1,0 +1,118 @@
+#include "explicit_scale.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elements/element_type.hpp"
+#include "hilbert.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// Forces may exceed the one that strains an element by about one this many times before the run counts as blown up.
+constexpr double safety = 64.0;
+
+double distance(const Point& a, const Point& b) {
+  return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
+}
+
+/// Shortest distance between two nodes of an element, for each local node over all elements of the model that touch it.
+std::vector<double> shortest_edges(const Model& model, const Domain& domain) {
+  const BoundingBox box = bounding_box(model.nodes.coordinates);
+  const double longest = std::max(distance(box.low, box.high), 1e-300);
+  std::vector<double> edge(static_cast<std::size_t>(domain.size()), longest);
+  const auto shorten = [&](std::int32_t row, double length) {
+    if (const auto node = domain.local_node[row]; node >= 0 && length > 0.0) edge[node] = std::min(edge[node], length);
+  };
+  for (const auto& table : model.elements) {
+    const int count = table.type->nodes;
+    for (std::int32_t row = 0; row < table.size(); ++row) {
+      const auto* nodes = &table.connectivity[static_cast<std::size_t>(row) * static_cast<std::size_t>(count)];
+      for (int i = 0; i < count; ++i) {
+        for (int j = 0; j < i; ++j) {
+          const double length = distance(model.nodes.coordinates[nodes[i]], model.nodes.coordinates[nodes[j]]);
+          shorten(nodes[i], length);
+          shorten(nodes[j], length);
+        }
+      }
+    }
+  }
+  return edge;
+}
+
+/// Stable increment of the undeformed elements, over all ranks.
+double reference_increment(const Analysis& analysis) {
+  const auto& domain = analysis.domain;
+  std::vector<double> position(4 * static_cast<std::size_t>(domain.size() + 1), 0.0), velocity(position.size(), 0.0),
+      force(position.size(), 0.0), history;
+  for (std::int32_t node = 0; node < domain.size(); ++node)
+    std::copy_n(analysis.model.nodes.coordinates[domain.node_row[node]].data(), 3, &position[4 * node]);
+  const ExplicitCycle cycle{.position = position.data(), .velocity = velocity.data(), .force = force.data()};
+  StableIncrement smallest;
+  for (const auto& group : analysis.element_groups) {
+    history.resize(static_cast<std::size_t>(group->history_size()) * static_cast<std::size_t>(group->padded_size()));
+    group->initialize_history(history);
+    for (const auto portion : {Portion::interface, Portion::interior})
+      smallest.merge(group->add_forces(portion, cycle, history));
+  }
+  return analysis.communicator.minimum(smallest.increment);
+}
+
+/// Nodal masses of elements alone: point masses load no element by themselves.
+std::vector<double> element_masses(const Analysis& analysis) {
+  auto mass = analysis.nodal_mass;
+  for (const auto& table : analysis.model.elements) {
+    if (table.type->section != Section::Kind::mass) continue;
+    for (std::int32_t row = 0; row < table.size(); ++row)
+      if (const auto node = analysis.domain.local_node[table.connectivity[row]]; node >= 0)
+        mass[node] = std::max(0.0, mass[node] - analysis.model.sections[table.section[row]].mass);
+  }
+  return mass;
+}
+
+/// Greatest factor that an amplitude can reach; 1 without amplitude.
+double greatest_factor(const Model& model, std::int32_t amplitude) {
+  if (amplitude < 0) return 1.0;
+  const auto& curve = model.amplitudes[amplitude];
+  double greatest = std::abs(curve.initial);
+  for (const auto& [a, b] : curve.harmonics) greatest += std::abs(a) + std::abs(b);
+  for (const auto& point : curve.points) greatest = std::max(greatest, std::abs(point[1]));
+  return greatest;
+}
+
+void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& largest) {
+  const auto greatest = [&](const auto& load) {
+    return std::max(std::abs(load.magnitude), std::abs(load.previous)) *
+           greatest_factor(analysis.model, load.amplitude);
+  };
+  for (const auto& load : step.concentrated_loads)
+    if (const auto node = analysis.domain.local_node[load.node]; node >= 0 && load.dof < 3)
+      largest[node] += greatest(load);
+  for (const auto& load : step.gravity)
+    for (std::size_t node = 0; node < largest.size(); ++node)
+      largest[node] += greatest(load) * analysis.nodal_mass[node];
+}
+
+}  // namespace
+
+ForceScale force_scale(const Analysis& analysis, const Step& step) {
+  ForceScale scale;
+  scale.reference_increment = reference_increment(analysis);
+  const auto edge = shortest_edges(analysis.model, analysis.domain);
+  auto largest = element_masses(analysis);
+  for (std::size_t node = 0; node < largest.size(); ++node)
+    largest[node] *= edge[node] / (scale.reference_increment * scale.reference_increment);
+  add_loads(analysis, step, largest);
+  for (const auto pair : step.active_contact_pairs) {
+    const auto& contact = analysis.contacts[pair];
+    for (std::int32_t point = 0; point < contact.size(); ++point)
+      largest[contact.nodes()[point]] += contact.normal_stiffness(point) * edge[contact.nodes()[point]];
+  }
+  for (const double value : largest)
+    scale.rounding_constant.push_back(rounding_constant(value > 0.0 ? safety * value : 1.0));
+  scale.rounding_constant.push_back(rounding_constant(1.0));
+  return scale;
+}
+
+}  // namespace balocco

@@ -1,0 +1,22 @@
+// The rounding constants of nodal forces: what makes sums exact, and at the same time the mark of a run that blew up.
+#pragma once
+
+#include <vector>
+
+#include "analysis.hpp"
+
+namespace balocco {
+
+struct ForceScale {
+  double reference_increment = 1e300;     // smallest stable increment of the undeformed elements, over all ranks
+  std::vector<double> rounding_constant;  // per local node and for the scratch node, the same bits on every copy
+};
+
+/// Fixed for a step by the undeformed model and the step's loads, so that a restart on any number of ranks finds the
+/// same. Collective.
+ForceScale force_scale(const Analysis& analysis, const Step& step);
+
+/// Force beyond which a sum rounded with `constant` is no longer sure to be exact: 2 x the largest sum it was made for.
+constexpr double overflow_fraction = 0.66;  // of the constant; 2 x largest sum is 2/3 of it
+
+}  // namespace balocco

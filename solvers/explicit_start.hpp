@@ -1,0 +1,18 @@
+// How the first dynamic step starts from the state that the steps before left: velocities, balance of forces,
+// plausibility.
+#pragma once
+
+#include <vector>
+
+#include "analysis.hpp"
+
+namespace balocco {
+
+/// Initial velocities on the current positions: translations, and the rigid spin of the deformed shape. A rigid body
+/// takes the field at its reference node if that node, or every node it carries, is in the set.
+void apply_initial_velocities(Analysis& analysis);
+
+/// Warns when the speed of a driven road and the spin of a rotating tyre on it do not fit a rolling radius. Collective.
+void check_rolling_radius(const Analysis& analysis, const Step& step, Observer& observer);
+
+}  // namespace balocco

@@ -1,0 +1,294 @@
+#include "explicit_step.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "explicit_nodes.hpp"
+#include "explicit_start.hpp"
+#include "model/diagnostics.hpp"
+#include "step_driver.hpp"
+
+namespace balocco {
+
+namespace {
+
+constexpr double collapse = 1e-4;  // of the undeformed elements' increment: an element is about to invert
+
+/// Sum of the durations of the steps before, the same after a restart.
+double time_before(const Model& model, std::int32_t step) {
+  double time = 0.0;
+  for (std::int32_t i = 0; i < step; ++i) time += model.steps[i].duration();
+  return time;
+}
+
+NodalConstraints make_constraints(const Analysis& analysis, const Step& step) {
+  std::optional<NodalConstraints> constraints;
+  analysis.communicator.together([&] { constraints.emplace(analysis, step); });
+  return std::move(*constraints);
+}
+
+/// Attachments come first of all: what follows depends on who carries which node.
+const Step& attached(Analysis& analysis, const Step& step) {
+  if (analysis.current.increment == 0) analysis.apply_attachments(step);
+  return step;
+}
+
+}  // namespace
+
+ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& observer)
+    : analysis_(analysis),
+      step_(attached(analysis, step)),
+      observer_(observer),
+      total_time_at_start_(time_before(analysis.model, analysis.current.step)),
+      scale_(force_scale(analysis, step)),
+      control_(analysis, step),
+      constraints_(make_constraints(analysis, step)),
+      bodies_(analysis, step),
+      external_halo_(analysis.communicator, analysis.domain.halo->neighbours()),
+      moments_(analysis.model.rigid_bodies.size()) {
+  const auto nodes = static_cast<std::size_t>(analysis.domain.size());
+  force_.assign(4 * (nodes + 1), 0.0);
+  for (std::size_t node = 0; node <= nodes; ++node) force_[4 * node + 3] = scale_.rounding_constant[node];
+  external_force_ = force_;
+  inverse_mass_.assign(nodes, 0.0);
+  for (std::size_t node = 0; node < nodes; ++node) {
+    const auto local = static_cast<std::int32_t>(node);
+    const bool moved_by_body = analysis.carrier(local) >= 0 || analysis.reference_of(local) >= 0;
+    if (!moved_by_body && analysis.nodal_mass[node] > 0.0) inverse_mass_[node] = 1.0 / analysis.nodal_mass[node];
+  }
+  const bool damped =
+      std::any_of(analysis.nodal_damping.begin(), analysis.nodal_damping.end(), [](double c) { return c > 0.0; });
+  if (analysis.communicator.any(damped)) damping_force_.assign(4 * nodes, 0.0);
+  analysis.communicator.together([&] { refuse_loads_without_inertia(); });
+  find_loaded_nodes();
+}
+
+void ExplicitStep::refuse_loads_without_inertia() const {
+  const Model& model = analysis_.model;
+  for (const auto& load : step_.concentrated_loads) {
+    const auto node = analysis_.domain.local_node[load.node];
+    if (node < 0) continue;
+    const bool moved_by_body = analysis_.carrier(node) >= 0 || analysis_.reference_of(node) >= 0;
+    if (load.dof < 3 && !moved_by_body && inverse_mass_[node] == 0.0)
+      throw InputError(
+          fmt::format("{}: error: *CLOAD: node {} has no mass, so that an explicit step cannot move it; give it a "
+                      "MASS element or load a node of an element",
+                      model.where({load.file, load.line}), model.nodes.id[load.node]));
+    if (load.dof >= 3 && analysis_.reference_of(node) < 0)
+      throw InputError(
+          fmt::format("{}: error: *CLOAD: node {} has no rotation; moments act on reference nodes of rigid bodies",
+                      model.where({load.file, load.line}), model.nodes.id[load.node]));
+  }
+}
+
+void ExplicitStep::find_loaded_nodes() {
+  std::vector<bool> loaded(static_cast<std::size_t>(analysis_.domain.size()), false);
+  for (const auto& load : step_.concentrated_loads)
+    if (const auto node = analysis_.domain.local_node[load.node]; node >= 0 && load.dof < 3) loaded[node] = true;
+  for (const auto& load : step_.pressures) {
+    const auto& faces = *analysis_.pressure_faces[load.surface];
+    for (std::int32_t face = 0; face < faces.size(); ++face)
+      for (const auto node : faces.nodes(face)) loaded[node] = true;
+  }
+  for (const auto& load : step_.gravity) {
+    const auto& mass = analysis_.partial_mass(load.element_set);
+    for (std::size_t node = 0; node < mass.size(); ++node)
+      if (mass[node] != 0.0) loaded[node] = true;
+  }
+  has_loads_ = !step_.concentrated_loads.empty() || !step_.pressures.empty() || !step_.gravity.empty();
+  if (has_loads_)  // what another rank loads arrives through the halo
+    for (const auto& neighbour : analysis_.domain.halo->neighbours())
+      for (const auto node : neighbour.nodes) loaded[node] = true;
+  for (std::size_t node = 0; node < loaded.size(); ++node)
+    if (loaded[node]) loaded_nodes_.push_back(static_cast<std::int32_t>(node));
+}
+
+Instant ExplicitStep::instant() const {
+  const auto& state = analysis_.current;
+  return {state.step_time, state.total_time, last_increment_, next_increment_};
+}
+
+void ExplicitStep::prepare_start() {
+  auto& state = analysis_.current;
+  state.time_increment = 0.0;
+  last_increment_ = next_increment_ = 0.0;
+  const bool follows_static =
+      state.step == 0 || analysis_.model.steps[state.step - 1].procedure == Step::Procedure::static_analysis;
+  if (follows_static) {
+    std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
+    for (auto& body : state.rigid_bodies) body.velocity = body.angular_velocity = {};
+  }
+  analysis_.communicator.together([&] {
+    constraints_.refuse_jumps(analysis_);
+    bodies_.refuse_jumps(analysis_);
+  });
+  if (!state.dynamic) apply_initial_velocities(analysis_);
+  if (!state.dynamic || follows_static) {
+    constraints_.set_initial_velocities(analysis_, step_, instant());
+    bodies_.set_initial_velocities(analysis_, instant());
+  }
+  if (!state.dynamic) check_rolling_radius(analysis_, step_, observer_);
+  state.dynamic = true;
+}
+
+void ExplicitStep::advance_positions() {
+  auto& state = analysis_.current;
+  const double increment = state.time_increment;
+  timers.measure(Phase::update, [&] { drift(state.position, state.velocity, increment); });
+  timers.measure(Phase::bodies, [&] { bodies_.advance(analysis_, increment); });
+  state.step_time = control_.time_after(state.step_time, increment);
+  state.total_time = total_time_at_start_ + state.step_time;
+  ++state.increment;
+  ++cycles_;
+  last_increment_ = increment;
+}
+
+void ExplicitStep::begin_external_loads() {
+  const auto& state = analysis_.current;
+  timers.measure(Phase::loads, [&] {
+    clear_vectors(force_);
+    stability_ = {};
+    if (!has_loads_) return;
+    std::fill(moments_.begin(), moments_.end(), Point{});
+    clear_vectors(external_force_);
+    add_external_forces(analysis_, step_, state.step_time, state.total_time, state.position.data(),
+                        external_force_.data(), moments_);
+    external_halo_.begin_sum(external_force_.data());
+  });
+}
+
+void ExplicitStep::add_elements(Portion portion) {
+  auto& state = analysis_.current;
+  const ExplicitCycle cycle{.position = state.position.data(),
+                            .velocity = state.velocity.data(),
+                            .force = force_.data(),
+                            .increment = last_increment_,
+                            .linear_bulk_viscosity = step_.explicit_procedure.linear_bulk_viscosity,
+                            .quadratic_bulk_viscosity = step_.explicit_procedure.quadratic_bulk_viscosity};
+  for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index) {
+    const auto& group = *analysis_.element_groups[index];
+    const auto stable = group.add_forces(portion, cycle, state.element_history[index]);
+    if (stable.element >= 0)
+      stability_.merge(stable.increment, analysis_.model.elements[group.table()].id[group.row(stable.element)]);
+  }
+}
+
+void ExplicitStep::add_interface_elements() {
+  timers.measure(Phase::elements, [&] { add_elements(Portion::interface); });
+}
+
+void ExplicitStep::begin_halo() {
+  timers.measure(Phase::halo, [&] { analysis_.domain.halo->begin_sum(force_.data()); });
+}
+
+void ExplicitStep::add_interior_elements() {
+  timers.measure(Phase::elements, [&] { add_elements(Portion::interior); });
+}
+
+void ExplicitStep::add_contact() {
+  auto& state = analysis_.current;
+  timers.measure(Phase::contact, [&] {
+    for (const auto pair : step_.active_contact_pairs) {
+      const auto& contact = analysis_.contacts[pair];
+      contact.add_forces(state.position.data(), state.rigid_bodies[contact.master_body()], state.contact[pair],
+                         force_.data());
+    }
+  });
+}
+
+void ExplicitStep::finish_halo() {
+  timers.measure(Phase::halo, [&] {
+    if (has_loads_) external_halo_.finish_sum(external_force_.data());
+    analysis_.domain.halo->finish_sum(force_.data());
+  });
+  timers.measure(Phase::loads, [&] {
+    if (has_loads_) add_vectors(force_, external_force_);
+  });
+}
+
+void ExplicitStep::add_damping() {
+  if (damping_force_.empty()) return;
+  timers.measure(Phase::update, [&] {
+    add_mass_damping(force_, damping_force_, analysis_.nodal_damping, analysis_.current.velocity);
+  });
+}
+
+void ExplicitStep::sum_body_forces() {
+  timers.measure(Phase::bodies, [&] { bodies_.sum_forces(analysis_, force_.data(), moments_); });
+}
+
+void ExplicitStep::choose_increment() {
+  timers.measure(Phase::increment, [&] {
+    const auto& state = analysis_.current;
+    const bool attention = observer_.next_due() <= state.step_time;
+    std::array<double, 3> agreed{-stability_.increment, attention ? 1.0 : 0.0, failure_ ? 1.0 : 0.0};
+    analysis_.communicator.maximum(std::span<double>(agreed));
+    if (agreed[2] > 0.0)
+      analysis_.communicator.together([&] {
+        if (failure_) throw AnalysisError(*failure_);
+      });
+    if (-agreed[0] < collapse * scale_.reference_increment) report_collapse();
+    attention_ = agreed[1] > 0.0;
+    next_increment_ = control_.next_increment(state.step_time, last_increment_, -agreed[0]);
+  });
+}
+
+void ExplicitStep::report_collapse() {
+  const auto worst = analysis_.communicator.minimum(Communicator::Located{stability_.increment, stability_.element});
+  throw AnalysisError(fmt::format(
+      "step {}, increment {}, time {:.6g}: element {} has become so distorted that its stable increment is {:.3g} "
+      "(undeformed model: {:.3g})",
+      step_.name, analysis_.current.increment, analysis_.current.total_time, worst.payload, worst.value,
+      scale_.reference_increment));
+}
+
+void ExplicitStep::add_half_work(double increment) {
+  const double half = 0.5 * increment;
+  auto& state = analysis_.current;
+  const auto power = [&](const std::vector<double>& force, std::size_t node) {
+    const double *f = &force[4 * node], *v = &state.velocity[4 * node];
+    return f[0] * v[0] + f[1] * v[1] + f[2] * v[2];
+  };
+  for (const auto node : loaded_nodes_) state.nodal_work[node].external += half * power(external_force_, node);
+  for (std::size_t node = 0; 4 * node < damping_force_.size(); ++node)
+    state.nodal_work[node].damping += half * power(damping_force_, node);
+}
+
+void ExplicitStep::update_velocities() {
+  auto& state = analysis_.current;
+  const Instant now = instant();
+  timers.measure(Phase::update, [&] {
+    add_half_work(now.previous);
+    constraints_.find_reactions(analysis_, step_, now, force_.data());
+    if (!kick(state.velocity, force_, inverse_mass_, now.average())) remember_blow_up();
+    constraints_.enforce(analysis_, now);
+  });
+  timers.measure(Phase::bodies, [&] { bodies_.accelerate(analysis_, now, moments_); });
+  timers.measure(Phase::update, [&] { add_half_work(now.next); });
+  state.time_increment = next_increment_;
+}
+
+void ExplicitStep::remember_blow_up() {
+  if (failure_) return;
+  std::int32_t node = 0;
+  while (!has_outgrown(&force_[4 * static_cast<std::size_t>(node)])) ++node;
+  const Model& model = analysis_.model;
+  std::string element;
+  for (const auto& group : analysis_.element_groups) {
+    for (std::int32_t e = 0; e < group->size() && element.empty(); ++e) {
+      const auto nodes = group->nodes(e);
+      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
+        element = fmt::format(" of element {}", model.elements[group->table()].id[group->row(e)]);
+    }
+  }
+  failure_ = fmt::format(
+      "step {}, increment {}, time {:.6g}: the run has blown up at node {}{}; the time increment may be too "
+      "large, or a load or an initial penetration too violent",
+      step_.name, analysis_.current.increment, analysis_.current.total_time,
+      model.nodes.id[analysis_.domain.node_row[node]], element);
+}
+
+}  // namespace balocco

@@ -1,0 +1,84 @@
+// The phases of an explicit cycle, as the loop (explicit_loop.cpp) names them, and what they share during a step.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "explicit_bodies.hpp"
+#include "explicit_motion.hpp"
+#include "explicit_scale.hpp"
+#include "explicit_time.hpp"
+#include "explicit_timers.hpp"
+
+namespace balocco {
+
+/// Between cycles the State stands like this: positions, history and contact at `step_time`; velocities in the middle
+/// of the increment to come, whose length is State::time_increment. A restart needs nothing else. At the end of the
+/// step that increment is zero, so velocities are those of the end.
+class ExplicitStep {
+ public:
+  /// Collective. @throws InputError on every rank alike.
+  ExplicitStep(Analysis& analysis, const Step& step, Observer& observer);
+
+  bool starts_afresh() const { return analysis_.current.increment == 0; }
+  bool finished() const { return analysis_.current.step_time >= step_.duration(); }
+
+  /// Attachments, initial velocities and everything else that happens once when a step begins.
+  void prepare_start();
+  /// Tells how far the state is from equilibrium: exactly zero but for the tolerance of the steps before.
+  void log_balance();
+
+  void advance_positions();
+  void begin_external_loads();
+  void add_interface_elements();
+  void begin_halo();
+  void add_interior_elements();
+  void add_contact();
+  void finish_halo();
+  void add_damping();
+  void sum_body_forces();
+  /// Agrees over all ranks on the next increment and on whether the observer wants to be called.
+  /// @throws AnalysisError where the run has blown up or the increment collapsed.
+  void choose_increment();
+  void update_velocities();
+  /// Calls the observer if it is due. @return false if it wants the run to stop.
+  bool observe();
+  void fill_output();
+  void log_timers() const;
+
+  PhaseTimers timers;
+
+ private:
+  Instant instant() const;
+  void add_elements(Portion portion);
+  void refuse_loads_without_inertia() const;
+  void find_loaded_nodes();
+  void add_half_work(double increment);
+  void remember_blow_up();
+  [[noreturn]] void report_collapse();
+  Progress progress() const;
+
+  Analysis& analysis_;
+  const Step& step_;
+  Observer& observer_;
+  double total_time_at_start_ = 0.0;  // of the step
+  ForceScale scale_;
+  TimeControl control_;
+  NodalConstraints constraints_;
+  RigidDynamics bodies_;
+  Halo external_halo_;
+  bool has_loads_ = false;  // of any rank
+
+  std::vector<double> force_, external_force_, damping_force_;  // 4 a node; damping empty where there is none
+  std::vector<double> inverse_mass_;                            // zero for nodes that bodies move
+  std::vector<std::int32_t> loaded_nodes_;                      // on which external forces may act
+  std::vector<Point> moments_;                                  // external, per rigid body
+  LocalStability stability_;
+  double next_increment_ = 0.0, last_increment_ = 0.0;
+  bool attention_ = false;
+  std::int64_t cycles_ = 0;             // computed by this run, which may have been restarted in mid-step
+  std::optional<std::string> failure_;  // found by this rank, told to all in the next agreement
+};
+
+}  // namespace balocco

@@ -1,0 +1,51 @@
+// When an explicit step goes where: the time increment, and the instants at which forces and motions are taken.
+#pragma once
+
+#include <cstdint>
+
+#include "analysis.hpp"
+
+namespace balocco {
+
+/// Half-step central difference at one instant: forces act at `step_time`; velocities go from the middle of the
+/// increment that led here (`previous`, 0 at the start of a step) to the middle of the one that follows (`next`, 0 at
+/// its end).
+struct Instant {
+  double step_time = 0.0, total_time = 0.0;
+  double previous = 0.0, next = 0.0;
+
+  double average() const { return 0.5 * (previous + next); }
+};
+
+/// The stable increment of this rank's elements, and the id of the element that governs it.
+struct LocalStability {
+  double increment = 1e300;
+  std::int64_t element = -1;
+
+  /// Of equal increments the element of the smaller id governs.
+  void merge(double other, std::int64_t id) {
+    if (other < increment || (other == increment && id < element)) *this = {other, id};
+  }
+};
+
+/// Chooses increments: the fixed one, or scale factor x the stable increment of elements and contact springs together.
+class TimeControl {
+ public:
+  /// Collective.
+  TimeControl(const Analysis& analysis, const Step& step);
+
+  /// Increment that follows `step_time` when `previous` led there (0: none) and `stable` is the elements' limit; 0 at
+  /// the end of the step. It lands on the step's end exactly and splits what remains evenly, so that no sliver is left
+  /// over.
+  double next_increment(double step_time, double previous, double stable) const;
+  /// Time at the end of an increment, exactly the step's duration at its end.
+  double time_after(double step_time, double increment) const;
+  /// Elements' limit combined with the contact springs' (omega^2 add up at most), without scale factor.
+  double combined(double stable) const;
+
+ private:
+  double duration_, scale_factor_, spring_frequency_squared_;
+  double fixed_ = 0.0;  // 0: automatic
+};
+
+}  // namespace balocco
