@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "elements/element_type.hpp"
+#include "elements/history_pack.hpp"
 #include "elements/membrane_reference.hpp"
 #include "elements/membrane_stability.hpp"
+#include "elements/nodal_packs.hpp"
 
 namespace balocco {
 
@@ -33,12 +35,12 @@ template <int corners, int points>
 MembraneGroup<corners, points>::MembraneGroup(const GroupInput& input)
     : ElementGroup(input),
       section_data_(membrane_section(input.model, input.model.sections[input.section])),
-      reference_(static_cast<std::size_t>(padded_size_ / pack_size) * Layout::size),
+      reference_(static_cast<std::size_t>(padded_size_) * Layout::size),
       nodal_area_(static_cast<std::size_t>(size_) * corners) {
   const Section& section = input.model.sections[input.section];
   for (std::int32_t element = 0; element < padded_size_; ++element) {
     const MembraneGeometry geometry = membrane_geometry(input.model, {table_, rows_[element]}, section, points);
-    double* const data = reference_[static_cast<std::size_t>(element / pack_size) * Layout::size].lane + element % pack_size;
+    double* const data = reference_.data() + element / pack_size * (Layout::size * pack_size) + element % pack_size;
     fill_membrane_reference<corners, points>(geometry, section_data_, {section.hourglass, section.hourglass_scale}, data);
     if (element < size_) std::copy_n(geometry.nodal_area.begin(), corners, nodal_area_.begin() + element * corners);
   }
@@ -56,8 +58,8 @@ std::array<Pack, 3> MembraneGroup<corners, points>::viscous_stress(Block& block,
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
 
   const Pack square = metric_determinant(stretch), ratio = square_root(square);
-  const Pack old_ratio = load_unaligned(row(area_ratio_row(point)));
-  store_unaligned(ratio, row(area_ratio_row(point)));
+  const Pack old_ratio = load_history(row(area_ratio_row(point)));
+  store_history(ratio, row(area_ratio_row(point)));
   const Pack rate = 2.0 * inverse_increment * (ratio - old_ratio) / (ratio + old_ratio);
   const Pack pressure = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Layout::viscosity) * rate;
   const Pack contravariant = pressure / square;  // Cauchy stress pressure * 1 pulled back: pressure * C^-1
@@ -69,8 +71,8 @@ std::array<Pack, 3> MembraneGroup<corners, points>::viscous_stress(Block& block,
     Pack strain_rate[3];
     for (int i = 0; i < 3; ++i) {
       const Pack strain = load(block.batch.strain[i] + pack * pack_size);
-      strain_rate[i] = inverse_increment * (strain - load_unaligned(row(strain_row(point) + i)));
-      store_unaligned(strain, row(strain_row(point) + i));
+      strain_rate[i] = inverse_increment * (strain - load_history(row(strain_row(point) + i)));
+      store_history(strain, row(strain_row(point) + i));
     }
     for (int i = 0; i < 3; ++i) {
       const Pack damping = d[3 * i] * strain_rate[0] + d[3 * i + 1] * strain_rate[1] + d[3 * i + 2] * strain_rate[2];
@@ -157,11 +159,11 @@ void MembraneGroup<corners, points>::finish(const Block& block, const ExplicitCy
     const std::int32_t* const scatter = scatter_.data() + element * corners;
     Vector3<Pack> on_first;
     for (int i = 0; i < Layout::edges; ++i) {
-      on_first = on_first + block.force[pack][i];
-      scatter_node(Vector3<Pack>() - block.force[pack][i], scatter + i + 1, corners, cycle.force);
+      on_first = on_first - block.force[pack][i];
+      scatter_subtract(block.force[pack][i], scatter + i + 1, corners, cycle.force);
     }
-    scatter_node(on_first, scatter, corners, cycle.force);
-    store_unaligned(load_unaligned(dissipation + element) + block.dissipated[pack], dissipation + element);
+    scatter_subtract(on_first, scatter, corners, cycle.force);
+    store_history(load_history(dissipation + element) + block.dissipated[pack], dissipation + element);
 
     const Pack increment = stable_increment(block, pack, cycle);
     if (any_of(increment < Pack(stable.increment)))
@@ -181,9 +183,9 @@ StableIncrement MembraneGroup<corners, points>::add_forces(Portion portion, cons
     block.packs = std::min(block_capacity, end - block.first) / pack_size;
     for (int pack = 0; pack < block.packs; ++pack) {
       const std::int32_t* const node = connectivity_.data() + (block.first + pack * pack_size) * corners;
-      const Vector3<Pack> origin = gather_node(cycle.position, node, corners);
+      const Vector3<Pack> origin = gather(cycle.position, node, corners);
       for (int i = 0; i < Layout::edges; ++i) {
-        block.edge[pack][i] = gather_node(cycle.position, node + i + 1, corners) - origin;
+        block.edge[pack][i] = gather(cycle.position, node + i + 1, corners) - origin;
         block.force[pack][i] = {};
       }
       block.mean_tangents[pack] = {};

@@ -3,10 +3,10 @@
 
 #include <vector>
 
+#include "elements/aligned_vector.hpp"
 #include "elements/element_group.hpp"
 #include "elements/membrane_kernel.hpp"
 #include "elements/membrane_section.hpp"
-#include "elements/nodal_access.hpp"
 
 namespace balocco {
 
@@ -39,7 +39,7 @@ class MembraneGroup final : public ElementGroup {
   int strain_row(int point) const { return dissipation_row() + 1 + 3 * point; }
   bool damped() const { return section_data_.damping_beta > 0.0; }
   const double* pack_reference(std::int32_t element) const {
-    return reference_[static_cast<std::size_t>(element / pack_size) * Layout::size].lane;
+    return reference_.data() + static_cast<std::size_t>(element / pack_size) * (Layout::size * pack_size);
   }
   const double* reference(std::int32_t element) const { return pack_reference(element) + element % pack_size; }
 
@@ -54,8 +54,8 @@ class MembraneGroup final : public ElementGroup {
                       std::span<double> history, typename MembraneKernel<T, corners, points>::Edges& force) const;
 
   MembraneSection section_data_;
-  std::vector<PackBlock> reference_;  // Layout::size per pack of elements
-  std::vector<double> nodal_area_;    // of each element
+  AlignedVector<double> reference_;  // Layout::size packs per pack of elements
+  std::vector<double> nodal_area_;   // of each element
 };
 
 }  // namespace balocco

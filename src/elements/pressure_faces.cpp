@@ -4,7 +4,7 @@
 #include <array>
 
 #include "elements/element_type.hpp"
-#include "elements/nodal_access.hpp"
+#include "elements/nodal_packs.hpp"
 #include "math/dual.hpp"
 
 namespace balocco {
@@ -40,9 +40,9 @@ Vector3<T> weighted(double weight, const Vector3<T>& v) {
   return {{weight * v[0], weight * v[1], weight * v[2]}};
 }
 
-/// -pressure * integral of N_I (x,xi cross x,eta) of the current face. `edge`: nodes relative to the first one.
+/// What the face has to resist: pressure * integral of N_I (x,xi cross x,eta). `edge`: nodes relative to the first one.
 template <class T>
-Face<T> pressure_force(double pressure, const Face<T>& edge) {
+Face<T> pressure_resistance(double pressure, const Face<T>& edge) {
   static constexpr auto points = face_points();
   Face<T> force{};
   for (const FacePoint& point : points) {
@@ -52,7 +52,7 @@ Face<T> pressure_force(double pressure, const Face<T>& edge) {
       by_eta = by_eta + weighted(point.by_eta[i], edge[i]);
     }
     const Vector3<T> area = cross(by_xi, by_eta);
-    for (int i = 0; i < nodes_per_face; ++i) force[i] = force[i] + weighted(-pressure * point.value[i], area);
+    for (int i = 0; i < nodes_per_face; ++i) force[i] = force[i] + weighted(pressure * point.value[i], area);
   }
   return force;
 }
@@ -87,12 +87,12 @@ std::span<const std::int32_t, PressureFaces::nodes_per_face> PressureFaces::node
 void PressureFaces::add_forces(double pressure, const double* position, double* force) const {
   for (std::int32_t first = 0; first < padded_size_; first += pack_size) {
     const std::int32_t* const node = gather_.data() + first * nodes_per_face;
-    const Vector3<Pack> origin = gather_node(position, node, nodes_per_face);
+    const Vector3<Pack> origin = gather(position, node, nodes_per_face);
     Face<Pack> edge{};
-    for (int i = 1; i < nodes_per_face; ++i) edge[i] = gather_node(position, node + i, nodes_per_face) - origin;
-    const Face<Pack> on_face = pressure_force(pressure, edge);
+    for (int i = 1; i < nodes_per_face; ++i) edge[i] = gather(position, node + i, nodes_per_face) - origin;
+    const Face<Pack> resistance = pressure_resistance(pressure, edge);
     for (int i = 0; i < nodes_per_face; ++i)
-      scatter_node(on_face[i], scatter_.data() + first * nodes_per_face + i, nodes_per_face, force);
+      scatter_subtract(resistance[i], scatter_.data() + first * nodes_per_face + i, nodes_per_face, force);
   }
 }
 
@@ -106,10 +106,10 @@ void PressureFaces::linearize(std::int32_t face, double pressure, const double* 
       edge[i][c] = Scalar(position[4 * std::ptrdiff_t{node[i]} + c] - position[4 * std::ptrdiff_t{node[0]} + c], 3 * i + c);
       edge[i][c].derivative[c] = -1.0;
     }
-  const Face<Scalar> result = pressure_force(pressure, edge);
+  const Face<Scalar> resistance = pressure_resistance(pressure, edge);
   for (int i = 0; i < 12; ++i) {
-    force[i] = result[i / 3][i % 3].value;
-    for (int j = 0; j < 12; ++j) stiffness[12 * i + j] = result[i / 3][i % 3].derivative[j];
+    force[i] = -resistance[i / 3][i % 3].value;
+    for (int j = 0; j < 12; ++j) stiffness[12 * i + j] = -resistance[i / 3][i % 3].derivative[j];
   }
 }
 

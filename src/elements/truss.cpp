@@ -6,6 +6,8 @@
 #include <cmath>
 
 #include "elements/element_type.hpp"
+#include "elements/history_pack.hpp"
+#include "elements/nodal_packs.hpp"
 #include "elements/truss_kernel.hpp"
 #include "model/diagnostics.hpp"
 
@@ -45,12 +47,12 @@ TrussGroup::TrussGroup(const GroupInput& input)
     : ElementGroup(input),
       law_(line_law(input.model, input.model.sections[input.section])),
       area_(input.model.sections[input.section].area),
-      length_(static_cast<std::size_t>(padded_size_ / pack_size)) {
+      length_(static_cast<std::size_t>(padded_size_)) {
   const Material& material = input.model.materials[input.model.sections[input.section].material];
   density_ = material.density;
   damping_beta_ = material.damping_beta;
   for (std::int32_t element = 0; element < padded_size_; ++element)
-    length_[element / pack_size].lane[element % pack_size] = truss_length(input.model, {table_, rows_[element]});
+    length_[element] = truss_length(input.model, {table_, rows_[element]});
   set_undeformed_moduli();
 }
 
@@ -91,23 +93,23 @@ TrussGroup::Pulled TrussGroup::pull(const Batch& batch, std::int32_t first, int 
                                     std::span<double> history) const {
   const auto row = [&](int component) { return history.data() + component * std::ptrdiff_t{padded_size_} + first + slot; };
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
-  const Pack length = load(length_[(first + slot) / pack_size].lane);
+  const Pack length = load(length_.data() + first + slot);
   const Pack strain = load(batch.strain[0] + slot), stress = load(batch.stress[0] + slot);
   const Pack square = 1.0 + 2.0 * strain, stretch = square_root(square);
-  const Pack old_stretch = load_unaligned(row(stretch_row()));
-  store_unaligned(stretch, row(stretch_row()));
+  const Pack old_stretch = load_history(row(stretch_row()));
+  store_history(stretch, row(stretch_row()));
 
   const Pack rate = 2.0 * inverse_increment * (stretch - old_stretch) / (stretch + old_stretch);
   const Pack viscosity = cycle.linear_bulk_viscosity * std::sqrt(density_ * initial_modulus_) * length;
   Pack viscous = viscosity * rate / square, power = viscosity * rate * rate;
   if (damped()) {
-    const Pack strain_rate = inverse_increment * (strain - load_unaligned(row(strain_row())));
-    store_unaligned(strain, row(strain_row()));
+    const Pack strain_rate = inverse_increment * (strain - load_history(row(strain_row())));
+    store_history(strain, row(strain_row()));
     const Pack damping = damping_beta_ * initial_modulus_ * strain_rate;
     viscous = viscous + damping;
     power = power + damping * strain_rate;
   }
-  store_unaligned(load_unaligned(row(dissipation_row())) + cycle.increment * area_ * (length * power), row(dissipation_row()));
+  store_history(load_history(row(dissipation_row())) + cycle.increment * area_ * (length * power), row(dissipation_row()));
 
   const Pack modulus = 2.0 * load(batch.shear_modulus + slot);
   const Pack inverse_mass = 4.0 / (density_ * length * length);  // A / L * (1 / m + 1 / m)
@@ -127,8 +129,8 @@ StableIncrement TrussGroup::add_forces(Portion portion, const ExplicitCycle& cyc
     batch.count = std::min(block_capacity, end - first);
     for (int slot = 0; slot < batch.count; slot += pack_size) {
       const std::int32_t* const node = connectivity_.data() + 2 * (first + slot);
-      const Pack length = load(length_[(first + slot) / pack_size].lane);
-      axis[slot / pack_size] = gather_node(cycle.position, node + 1, 2) - gather_node(cycle.position, node, 2);
+      const Pack length = load(length_.data() + first + slot);
+      axis[slot / pack_size] = gather(cycle.position, node + 1, 2) - gather(cycle.position, node, 2);
       store(truss_strain(axis[slot / pack_size], Pack(1.0 / (length * length))), batch.strain[0] + slot);
     }
     batch.history = history.data() + first;
@@ -136,10 +138,10 @@ StableIncrement TrussGroup::add_forces(Portion portion, const ExplicitCycle& cyc
     law_->stress(batch);
     for (int slot = 0; slot < batch.count; slot += pack_size) {
       const Pulled pulled = pull(batch, first, slot, cycle, history);
-      const Pack length = load(length_[(first + slot) / pack_size].lane);
+      const Pack length = load(length_.data() + first + slot);
       const Vector3<Pack> force = truss_force(axis[slot / pack_size], pulled.stress, Pack(area_ / length));
-      scatter_node(force, scatter_.data() + 2 * (first + slot), 2, cycle.force);
-      scatter_node(Vector3<Pack>() - force, scatter_.data() + 2 * (first + slot) + 1, 2, cycle.force);
+      scatter_subtract(Vector3<Pack>() - force, scatter_.data() + 2 * (first + slot), 2, cycle.force);
+      scatter_subtract(force, scatter_.data() + 2 * (first + slot) + 1, 2, cycle.force);
       if (any_of(pulled.increment < Pack(stable.increment)))
         for (int lane = 0; lane < pack_size; ++lane)
           if (pulled.increment[lane] < stable.increment) stable = {pulled.increment[lane], first + slot + lane};

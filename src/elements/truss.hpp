@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "elements/aligned_vector.hpp"
 #include "elements/element_group.hpp"
-#include "elements/nodal_access.hpp"
 #include "materials/material_law.hpp"
 
 namespace balocco {
@@ -37,7 +37,7 @@ class TrussGroup final : public ElementGroup {
   int dissipation_row() const { return stretch_row() + 1; }
   int strain_row() const { return dissipation_row() + 1; }
   bool damped() const { return damping_beta_ > 0.0; }
-  double reference_length(std::int32_t element) const { return length_[element / pack_size].lane[element % pack_size]; }
+  double reference_length(std::int32_t element) const { return length_[element]; }
   double strain_at(std::int32_t element, const double* position) const;
   void set_undeformed_moduli();
   Pulled pull(const Batch& batch, std::int32_t first, int slot, const ExplicitCycle& cycle, std::span<double> history) const;
@@ -46,7 +46,7 @@ class TrussGroup final : public ElementGroup {
   double area_ = 0.0, density_ = 0.0, damping_beta_ = 0.0;
   double initial_modulus_ = 0.0;  // dS/dE in the undeformed state
   double initial_bound_ = 0.0;    // what the law bounds it with
-  std::vector<PackBlock> length_;  // reference lengths
+  AlignedVector<double> length_;   // reference lengths, padded
 };
 
 }  // namespace balocco

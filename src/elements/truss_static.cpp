@@ -10,7 +10,8 @@ namespace balocco {
 namespace {
 
 Vector3<double> truss_axis(std::span<const std::int32_t> node, const double* position) {
-  return gather_node(position, node[1]) - gather_node(position, node[0]);
+  const double *const a = position + 4 * std::ptrdiff_t{node[0]}, *const b = position + 4 * std::ptrdiff_t{node[1]};
+  return {{b[0] - a[0], b[1] - a[1], b[2] - a[2]}};
 }
 
 }  // namespace

@@ -1,0 +1,11 @@
+// Element history as packs. A component of eight elements is contiguous, but State promises no alignment.
+#pragma once
+
+#include "math/pack.hpp"
+
+namespace balocco {
+
+inline Pack load_history(const double* address) { return Pack(address, std::experimental::element_aligned); }
+inline void store_history(const Pack& value, double* address) { value.copy_to(address, std::experimental::element_aligned); }
+
+}  // namespace balocco
