@@ -16,10 +16,14 @@ const RegisterLaw registered(
     {.name = "elastic",
      .keyword = "ELASTIC",
      .variant = "",
-     .parameters = {{"young", 0.0, unbounded, "Young's modulus, force/area"}, {"poisson", -1.0, 0.5, "Poisson's ratio"}},
+     .parameters = {{"young", 0.0, unbounded, "Young's modulus, force/area"},
+                    {"poisson", -1.0, 0.5, "Poisson's ratio"}},
      .solid = [](Parameters p) { return make_solid_law(IsotropicElastic::from_young(p[0], p[1])); },
      .plane = [](Parameters p) { return make_plane_law(plane_form(p)); },
-     .line = [](Parameters p) { return make_line_law(LineElastic{p[0], p[1]}); },
+     .line =
+         [](Parameters p) {
+           return make_line_law(LineElastic{p[0], p[1]});
+         },
      .lamina_stiffness = [](Parameters p, std::span<double, 9> q) { plane_form(p).copy_to(q); }});
 
 }  // namespace

@@ -22,9 +22,10 @@ Matrix3<T> green_lagrange_strain(const Matrix3<T>& deformation_gradient) {
   return strain;
 }
 
-/// Bound of the second variation of a quadratic energy E : D : E / 2 with D <= lambda I x I + 2 mu Id and stress S whose largest
-/// eigenvalue is at most `largest_stress`:  d2W = dE : D : dE + S : dF^T dF with dE = sym(F^T dF), |dE| <= |F|_2 |dF|, and
-/// tr dE = F : dF = F^-T : dF + (F - F^-T) : dF, where |F - F^-T| = d; Young's inequality with weight d parts the square.
+/// Bound of the second variation of a quadratic energy E : D : E / 2 with D <= lambda I x I + 2 mu Id and stress S
+/// whose largest eigenvalue is at most `largest_stress`:  d2W = dE : D : dE + S : dF^T dF with dE = sym(F^T dF), |dE|
+/// <= |F|_2 |dF|, and tr dE = F : dF = F^-T : dF + (F - F^-T) : dF, where |F - F^-T| = d; Young's inequality with
+/// weight d parts the square.
 template <class T>
 TangentBound<T> quadratic_energy_bound(const Invariants<T>& c, double lambda, double mu, const T& largest_stress) {
   const T distance = square_root(maximum(c.first + c.second / (c.jacobian * c.jacobian) - 6.0, T(0.0)));

@@ -1,5 +1,5 @@
-// *ELASTIC, TYPE=LAMINA: an orthotropic ply in plane stress. Plane form only. G13 and G23 are read because the keyword's data line
-// has them; they govern transverse shear, which membranes do not have.
+// *ELASTIC, TYPE=LAMINA: an orthotropic ply in plane stress. Plane form only. G13 and G23 are read because the
+// keyword's data line has them; they govern transverse shear, which membranes do not have.
 #include "materials/plane_elastic.hpp"
 #include "model/diagnostics.hpp"
 
@@ -12,7 +12,8 @@ using Parameters = std::span<const double>;
 PlaneElastic plane_form(Parameters p) {
   const PlaneConstants constants{p[0], p[1], p[2], p[3]};
   if (!constants.stable())
-    throw InputError("*ELASTIC, TYPE=LAMINA: |nu12| >= sqrt(E1/E2) makes the stiffness indefinite; give the major Poisson's ratio");
+    throw InputError(
+        "*ELASTIC, TYPE=LAMINA: |nu12| >= sqrt(E1/E2) makes the stiffness indefinite; give the major Poisson's ratio");
   return PlaneElastic::from_constants(constants);
 }
 

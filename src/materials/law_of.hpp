@@ -4,7 +4,8 @@
 //   solid: Matrix3<T> stress(const Matrix3<T>& F)             first Piola-Kirchhoff stress
 //          TangentBound<T> bound(const Matrix3<T>& F)         see PointBatch
 //          double energy(const Matrix3<double>& F)            per reference volume
-//   plane: std::array<T, 3> stress(const std::array<T, 3>& E), T bound(E) (half the largest eigenvalue of the tangent, E12
+//   plane: std::array<T, 3> stress(const std::array<T, 3>& E), T bound(E) (half the largest eigenvalue of the tangent,
+//   E12
 //          counted twice in dE : dE), double energy(E), double transverse_stretch(E)
 //   line:  the same with std::array<T, 1>
 #pragma once

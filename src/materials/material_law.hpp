@@ -16,11 +16,13 @@
 namespace balocco {
 
 /// Kinematics seen by a law. solid: deformation gradient F (row-major 9) -> first Piola-Kirchhoff stress P (9).
-/// plane: Green-Lagrange strain E11 E22 2E12 in the material directions -> second Piola-Kirchhoff S11 S22 S12 (plane stress).
-/// line: Green-Lagrange strain E -> second Piola-Kirchhoff stress S (uniaxial stress).
+/// plane: Green-Lagrange strain E11 E22 2E12 in the material directions -> second Piola-Kirchhoff S11 S22 S12 (plane
+/// stress). line: Green-Lagrange strain E -> second Piola-Kirchhoff stress S (uniaxial stress).
 enum class PointKind { solid, plane, line };
 
-constexpr int strain_size(PointKind kind) { return kind == PointKind::solid ? 9 : kind == PointKind::plane ? 3 : 1; }
+constexpr int strain_size(PointKind kind) {
+  return kind == PointKind::solid ? 9 : kind == PointKind::plane ? 3 : 1;
+}
 
 /// Up to `capacity` material points, structure of arrays, small enough to stay in L1.
 template <PointKind kind>
@@ -34,7 +36,7 @@ struct PointBatch {
   /// <= volumetric * (F^-T : dF)^2 + 2 * shear * dF : dF. plane, line: <= 2 * shear * dE : dE, volumetric unused.
   alignas(64) double volumetric_modulus[capacity];
   alignas(64) double shear_modulus[capacity];
-  double* history = nullptr;        // history[component * history_stride + point]; in: old, out: new
+  double* history = nullptr;  // history[component * history_stride + point]; in: old, out: new
   std::ptrdiff_t history_stride = 0;
 };
 
@@ -63,14 +65,15 @@ struct ParameterSpec {
 };
 
 struct MaterialLaw {
-  std::string name;      // "neo-hooke"
-  std::string keyword;   // "HYPERELASTIC"
-  std::string variant;   // "NEO HOOKE" or "TYPE=LAMINA"'s value; empty for the keyword's default
+  std::string name;     // "neo-hooke"
+  std::string keyword;  // "HYPERELASTIC"
+  std::string variant;  // "NEO HOOKE" or "TYPE=LAMINA"'s value; empty for the keyword's default
   std::vector<ParameterSpec> parameters;
   std::unique_ptr<Law<PointKind::solid>> (*solid)(std::span<const double>) = nullptr;  // null: no such form
   std::unique_ptr<Law<PointKind::plane>> (*plane)(std::span<const double>) = nullptr;
   std::unique_ptr<Law<PointKind::line>> (*line)(std::span<const double>) = nullptr;
-  /// Plane-stress stiffness Q (row-major 3 x 3, material directions) for lamination theory; null where not linear elastic.
+  /// Plane-stress stiffness Q (row-major 3 x 3, material directions) for lamination theory; null where not linear
+  /// elastic.
   void (*lamina_stiffness)(std::span<const double> parameters, std::span<double, 9> stiffness) = nullptr;
 };
 

@@ -9,7 +9,9 @@ namespace {
 
 using Parameters = std::span<const double>;
 
-RubberConstants constants(Parameters p) { return {p[0], p[1], bulk_modulus(parameter(p, 2), 2.0 * (p[0] + p[1]))}; }
+RubberConstants constants(Parameters p) {
+  return {p[0], p[1], bulk_modulus(parameter(p, 2), 2.0 * (p[0] + p[1]))};
+}
 
 MooneyRivlin solid_form(Parameters p) {
   const RubberConstants c = constants(p);

@@ -15,10 +15,11 @@ struct MooneyRivlin {
   Matrix3<T> stress(const Matrix3<T>& f) const {
     const Invariants<T> c = invariants(f);
     const T root = inverse_cube_root(c.jacobian);
-    const T j2 = root * root;                  // J^-2/3
-    const T inverse = root * root * root;      // 1 / J
+    const T j2 = root * root;              // J^-2/3
+    const T inverse = root * root * root;  // 1 / J
     const T a = (2.0 * c10) * j2, b = (2.0 * c01) * (j2 * j2);
-    const T spherical = bulk * (c.jacobian - 1.0) - inverse * ((1.0 / 3.0) * (a * c.first) + (2.0 / 3.0) * (b * c.second));
+    const T spherical =
+        bulk * (c.jacobian - 1.0) - inverse * ((1.0 / 3.0) * (a * c.first) + (2.0 / 3.0) * (b * c.second));
     // d I2 / dF = 2 (I1 F - F C) = 2 (I1 I - F F^T) F
     const Matrix3<T> left = f * transpose(f);
     const Matrix3<T> product = left * f;
@@ -50,10 +51,10 @@ struct MooneyRivlin {
     const T n2 = largest_eigenvalue_bound(trace_of_inverse, c.first * inverse_square);
     const T k = (2.0 / 3.0) * (a * c.first + b * c.second) - bulk * ((c.jacobian - 1.0) * c.jacobian);
     const T cross = size_a * eta1 + size_b * eta2;
-    const T volumetric = bulk * ((2.0 * c.jacobian - 1.0) * c.jacobian) -
-                         (4.0 / 9.0) * (a * c.first + b * c.second) + (4.0 / 3.0) * cross;
-    const T shear = size_a + 0.5 * (absolute(k) * n2) + (2.0 / 3.0) * cross +
-                    size_b * (square * (n2 * n2) + 2.0 * (n2 * deviator));
+    const T volumetric = bulk * ((2.0 * c.jacobian - 1.0) * c.jacobian) - (4.0 / 9.0) * (a * c.first + b * c.second) +
+                         (4.0 / 3.0) * cross;
+    const T shear =
+        size_a + 0.5 * (absolute(k) * n2) + (2.0 / 3.0) * cross + size_b * (square * (n2 * n2) + 2.0 * (n2 * deviator));
     return {maximum(volumetric, zero), shear};
   }
 

@@ -9,17 +9,22 @@ namespace {
 
 using Parameters = std::span<const double>;
 
-RubberConstants constants(Parameters p) { return {p[0], 0.0, bulk_modulus(parameter(p, 1), 2.0 * p[0])}; }
+RubberConstants constants(Parameters p) {
+  return {p[0], 0.0, bulk_modulus(parameter(p, 1), 2.0 * p[0])};
+}
 
-const RegisterLaw registered(
-    {.name = "neo-hooke",
-     .keyword = "HYPERELASTIC",
-     .variant = "NEO HOOKE",
-     .parameters = {{"C10", 0.0, unbounded, "half the initial shear modulus, force/area"},
-                    {"D1", from_zero, unbounded, "2 / bulk modulus, area/force; 0: bulk modulus = 20 x shear modulus"}},
-     .solid = [](Parameters p) { return make_solid_law(NeoHooke{constants(p).c10, constants(p).bulk}); },
-     .plane = [](Parameters p) { return make_plane_law(RubberPlane{constants(p)}); },
-     .line = [](Parameters p) { return make_line_law(RubberLine{constants(p)}); }});
+const RegisterLaw registered({.name = "neo-hooke",
+                              .keyword = "HYPERELASTIC",
+                              .variant = "NEO HOOKE",
+                              .parameters = {{"C10", 0.0, unbounded, "half the initial shear modulus, force/area"},
+                                             {"D1", from_zero, unbounded,
+                                              "2 / bulk modulus, area/force; 0: bulk modulus = 20 x shear modulus"}},
+                              .solid =
+                                  [](Parameters p) {
+                                    return make_solid_law(NeoHooke{constants(p).c10, constants(p).bulk});
+                                  },
+                              .plane = [](Parameters p) { return make_plane_law(RubberPlane{constants(p)}); },
+                              .line = [](Parameters p) { return make_line_law(RubberLine{constants(p)}); }});
 
 }  // namespace
 

@@ -7,9 +7,11 @@
 
 namespace balocco {
 
-/// Bulk modulus 2 / D1. D1 = 0 asks for an incompressible material, which neither solver can take: as Abaqus/Explicit does, the
-/// bulk modulus is then 20 times the shear modulus mu0 (Poisson's ratio 0.475).
-inline double bulk_modulus(double d1, double shear_modulus) { return d1 > 0.0 ? 2.0 / d1 : 20.0 * shear_modulus; }
+/// Bulk modulus 2 / D1. D1 = 0 asks for an incompressible material, which neither solver can take: as Abaqus/Explicit
+/// does, the bulk modulus is then 20 times the shear modulus mu0 (Poisson's ratio 0.475).
+inline double bulk_modulus(double d1, double shear_modulus) {
+  return d1 > 0.0 ? 2.0 / d1 : 20.0 * shear_modulus;
+}
 
 struct NeoHooke {
   double c10, bulk;
@@ -28,7 +30,8 @@ struct NeoHooke {
   // With t = F^-T : dF, A = F^-1 dF, j = J^-2/3:
   //   d2U = 2 C10 j |dF|^2 - (8/3) C10 j t (F : dF) + (4/9) C10 j I1 t^2 + K (2 J - 1) J t^2 + k tr(A A),
   //   k = (2/3) C10 j I1 - K (J - 1) J,  tr(A A) <= |F^-1|^2 |dF|^2,
-  // and F : dF = (I1/3) t + y, |y| <= eta |dF|, eta^2 = |F - (I1/3) F^-T|^2 = I1 (I1 tr(C^-1) / 9 - 1), zero where C ~ I.
+  // and F : dF = (I1/3) t + y, |y| <= eta |dF|, eta^2 = |F - (I1/3) F^-T|^2 = I1 (I1 tr(C^-1) / 9 - 1), zero where C ~
+  // I.
   template <class T>
   TangentBound<T> bound(const Matrix3<T>& f) const {
     const Invariants<T> c = invariants(f);

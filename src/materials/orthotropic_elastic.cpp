@@ -14,11 +14,14 @@ OrthotropicElastic OrthotropicElastic::from_stiffness(const std::array<double, 9
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
   const Matrix d = Eigen::Map<const Matrix>(normal.data());
   if (!(Eigen::SelfAdjointEigenSolver<Matrix>(d).eigenvalues().minCoeff() > 0.0))
-    throw InputError(std::string(keyword) + ": the stiffness is not positive definite; check the Poisson's ratios or D1122, D1133, D2233");
+    throw InputError(std::string(keyword) +
+                     ": the stiffness is not positive definite; check the Poisson's ratios or D1122, D1133, D2233");
   OrthotropicElastic law{normal, shear[0], shear[1], shear[2], 0.0, 0.0};
-  law.lambda = std::max(0.0, (normal[1] + normal[2] + normal[5]) / 3.0);  // any choice is safe; this one is exact if isotropic
+  law.lambda =
+      std::max(0.0, (normal[1] + normal[2] + normal[5]) / 3.0);  // any choice is safe; this one is exact if isotropic
   const Matrix rest = d - law.lambda * Matrix::Ones();
-  law.mu = std::max({0.5 * Eigen::SelfAdjointEigenSolver<Matrix>(rest).eigenvalues().maxCoeff(), shear[0], shear[1], shear[2]});
+  law.mu = std::max(
+      {0.5 * Eigen::SelfAdjointEigenSolver<Matrix>(rest).eigenvalues().maxCoeff(), shear[0], shear[1], shear[2]});
   return law;
 }
 
@@ -30,8 +33,8 @@ using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 /// Order of the parameters: E1 E2 E3 nu12 nu13 nu23 G12 G13 G23.
 OrthotropicElastic from_engineering_constants(Parameters p) {
   Matrix compliance;
-  compliance << 1.0 / p[0], -p[3] / p[0], -p[4] / p[0], -p[3] / p[0], 1.0 / p[1], -p[5] / p[1], -p[4] / p[0], -p[5] / p[1],
-      1.0 / p[2];
+  compliance << 1.0 / p[0], -p[3] / p[0], -p[4] / p[0], -p[3] / p[0], 1.0 / p[1], -p[5] / p[1], -p[4] / p[0],
+      -p[5] / p[1], 1.0 / p[2];
   const Matrix stiffness = compliance.inverse();
   std::array<double, 9> normal;
   Eigen::Map<Matrix>(normal.data()) = 0.5 * (stiffness + stiffness.transpose());
@@ -81,7 +84,8 @@ const RegisterLaw engineering_constants(
      .parameters = engineering_parameters(),
      .solid = [](Parameters p) { return make_solid_law(from_engineering_constants(p)); },
      .plane = [](Parameters p) { return make_plane_law(plane_form(from_engineering_constants(p))); },
-     .lamina_stiffness = [](Parameters p, std::span<double, 9> q) { plane_form(from_engineering_constants(p)).copy_to(q); }});
+     .lamina_stiffness = [](Parameters p,
+                            std::span<double, 9> q) { plane_form(from_engineering_constants(p)).copy_to(q); }});
 
 const RegisterLaw orthotropic(
     {.name = "orthotropic",

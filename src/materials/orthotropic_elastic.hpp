@@ -10,7 +10,7 @@ namespace balocco {
 struct OrthotropicElastic {
   std::array<double, 9> normal;  // D1111 D1122 D1133, D1122 D2222 D2233, D1133 D2233 D3333
   double shear12, shear13, shear23;
-  double lambda, mu;             // D <= lambda I x I + 2 mu Id
+  double lambda, mu;  // D <= lambda I x I + 2 mu Id
 
   /// Sets `lambda` and `mu`. @throws InputError if the stiffness is not positive definite; `keyword` names the culprit.
   static OrthotropicElastic from_stiffness(const std::array<double, 9>& normal, const std::array<double, 3>& shear,

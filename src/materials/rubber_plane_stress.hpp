@@ -1,8 +1,9 @@
-// Neo-Hooke (C01 = 0) and Mooney-Rivlin rubber in plane stress and in a line: the transverse stretch follows from the law itself.
+// Neo-Hooke (C01 = 0) and Mooney-Rivlin rubber in plane stress and in a line: the transverse stretch follows from the
+// law itself.
 //
-// At fixed J the energy is C10 J^-2/3 I1 + C01 J^-4/3 I2; J then makes it stationary. Subtracting the vanishing transverse stress
-// from the others removes the bulk modulus, hence its round-off, from the stress. Condensing J can only lower the tangent, so the
-// second derivative at fixed J bounds it.
+// At fixed J the energy is C10 J^-2/3 I1 + C01 J^-4/3 I2; J then makes it stationary. Subtracting the vanishing
+// transverse stress from the others removes the bulk modulus, hence its round-off, from the stress. Condensing J can
+// only lower the tangent, so the second derivative at fixed J bounds it.
 #pragma once
 
 #include <array>
@@ -17,8 +18,8 @@ struct RubberConstants {
   double c10, c01, bulk;
 };
 
-/// Newton from J = 1 on g(J) = 0 with its slope, `iterations` times: the residual of the transverse stress falls to round-off for
-/// stretches in [0.3, 5] and bulk moduli from one shear modulus up.
+/// Newton from J = 1 on g(J) = 0 with its slope, `iterations` times: the residual of the transverse stress falls to
+/// round-off for stretches in [0.3, 5] and bulk moduli from one shear modulus up.
 template <class T, class Residual>
 T solve_volume_ratio(const Residual& residual) {
   constexpr int iterations = 8;
@@ -55,8 +56,9 @@ struct RubberPlane {
       const T a = (2.0 / 3.0 * constants.c10) * j2, b = (2.0 / 3.0 * constants.c01) * (j2 * j2);
       const T term_a = a * (2.0 * c33 - p.trace), term_b = b * (p.trace * c33 - 2.0 * p.determinant);
       const T value = term_a + term_b + constants.bulk * (j * (j - 1.0));
-      const T slope = inverse_j * (4.0 * (a * c33) + 2.0 * (b * (p.trace * c33)) - (2.0 / 3.0) * term_a - (4.0 / 3.0) * term_b) +
-                      constants.bulk * (2.0 * j - 1.0);
+      const T slope =
+          inverse_j * (4.0 * (a * c33) + 2.0 * (b * (p.trace * c33)) - (2.0 / 3.0) * term_a - (4.0 / 3.0) * term_b) +
+          constants.bulk * (2.0 * j - 1.0);
       return std::array<T, 2>{value, slope};
     });
     const T root = inverse_cube_root(p.jacobian), j2 = root * root;
@@ -76,7 +78,8 @@ struct RubberPlane {
   }
 
   // At fixed J, with x = C^-1 : dE, N = |C^-1/2 dE C^-1/2|^2 <= n^2 |dE|^2, x^2 <= |C^-1|^2 |dE|^2:
-  //   dS : dE = 2 a c (N + x^2) + 2 b [(D + A c) x^2 - 2 c x tr dE + (A c - D) N],  a = 2 C10 J^-2/3, b = 2 C01 J^-4/3, A = tr C,
+  //   dS : dE = 2 a c (N + x^2) + 2 b [(D + A c) x^2 - 2 c x tr dE + (A c - D) N],  a = 2 C10 J^-2/3, b = 2 C01 J^-4/3,
+  //   A = tr C,
   // and tr dE = x / m + y with m = tr(C^-1) / 2, |y| <= r |dE|, r = |I - C^-1 / m|.
   template <class T>
   T bound(const std::array<T, 3>& strain) const {
@@ -85,18 +88,21 @@ struct RubberPlane {
     const T half_trace = 0.5 * (p.trace * inverse);
     const T radius_square = maximum(half_trace * half_trace - inverse, T(0.0));
     const T radius = square_root(radius_square);
-    const T largest = half_trace + radius, n = largest * largest, norm = 2.0 * (half_trace * half_trace + radius_square);
+    const T largest = half_trace + radius, n = largest * largest,
+            norm = 2.0 * (half_trace * half_trace + radius_square);
     const T skew = square_root(T(2.0)) * radius / half_trace;
     const T size = absolute(p.second), c_trace = p.c33 * p.trace;
     const T quadratic = maximum(p.determinant + c_trace - 2.0 * (p.c33 / half_trace), T(0.0)) + p.c33 * skew;
-    return p.first * p.c33 * (n + norm) + size * (quadratic * norm + absolute(c_trace - p.determinant) * n + p.c33 * skew);
+    return p.first * p.c33 * (n + norm) +
+           size * (quadratic * norm + absolute(c_trace - p.determinant) * n + p.c33 * skew);
   }
 
   double energy(const std::array<double, 3>& strain) const {
     const Point<double> p = solve(strain);
     const double i1 = p.trace + p.c33, i2 = p.determinant + p.c33 * p.trace;
     const double root = inverse_cube_root(p.jacobian), j2 = root * root, change = p.jacobian - 1.0;
-    return constants.c10 * (i1 * j2 - 3.0) + constants.c01 * (i2 * j2 * j2 - 3.0) + 0.5 * constants.bulk * change * change;
+    return constants.c10 * (i1 * j2 - 3.0) + constants.c01 * (i2 * j2 * j2 - 3.0) +
+           0.5 * constants.bulk * change * change;
   }
 
   double transverse_stretch(const std::array<double, 3>& strain) const { return square_root(solve(strain).c33); }
@@ -122,8 +128,9 @@ struct RubberLine {
       const T a = (2.0 / 3.0 * constants.c10) * j2, b = (2.0 / 3.0 * constants.c01) * (j2 * j2);
       const T term_a = a * (c - p.axial), term_b = b * (c * (c - p.axial));
       const T value = term_a + term_b + constants.bulk * (j * (j - 1.0));
-      const T slope = inverse_j * (a * c + b * (c * (2.0 * c - p.axial)) - (2.0 / 3.0) * term_a - (4.0 / 3.0) * term_b) +
-                      constants.bulk * (2.0 * j - 1.0);
+      const T slope =
+          inverse_j * (a * c + b * (c * (2.0 * c - p.axial)) - (2.0 / 3.0) * term_a - (4.0 / 3.0) * term_b) +
+          constants.bulk * (2.0 * j - 1.0);
       return std::array<T, 2>{value, slope};
     });
     const T root = inverse_cube_root(p.jacobian), j2 = root * root;
@@ -152,7 +159,8 @@ struct RubberLine {
     const Point<double> p = solve(strain[0]);
     const double i1 = p.axial + 2.0 * p.transverse, i2 = p.transverse * (p.transverse + 2.0 * p.axial);
     const double root = inverse_cube_root(p.jacobian), j2 = root * root, change = p.jacobian - 1.0;
-    return constants.c10 * (i1 * j2 - 3.0) + constants.c01 * (i2 * j2 * j2 - 3.0) + 0.5 * constants.bulk * change * change;
+    return constants.c10 * (i1 * j2 - 3.0) + constants.c01 * (i2 * j2 * j2 - 3.0) +
+           0.5 * constants.bulk * change * change;
   }
 
   double transverse_stretch(const std::array<double, 1>& strain) const { return solve(strain[0]).transverse; }

@@ -29,8 +29,8 @@ Invariants<T> invariants(const Matrix3<T>& deformation_gradient) {
   return result;
 }
 
-/// Upper bound of the largest eigenvalue of a symmetric 3 x 3 matrix with invariants tr and tr cof: mean + sqrt(2/3) |deviator|
-/// (equality where the two smaller ones coincide).
+/// Upper bound of the largest eigenvalue of a symmetric 3 x 3 matrix with invariants tr and tr cof: mean + sqrt(2/3)
+/// |deviator| (equality where the two smaller ones coincide).
 template <class T>
 T largest_eigenvalue_bound(const T& trace, const T& trace_of_cofactor) {
   const T discriminant = maximum(trace * trace - 3.0 * trace_of_cofactor, T(0.0));

@@ -1,0 +1,267 @@
+#include "elements/reduced_brick.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "elements/bulk_viscosity.hpp"
+#include "elements/element_type.hpp"
+#include "elements/nodal_packs.hpp"
+#include "elements/reduced_brick_damping.hpp"
+#include "elements/reduced_brick_stability.hpp"
+#include "elements/solid_faces.hpp"
+#include "elements/solid_output.hpp"
+#include "math/dual.hpp"
+
+namespace balocco {
+
+namespace {
+
+constexpr int nodes_per_brick = 8;
+
+std::unique_ptr<ElementGroup> make_group(const GroupInput& input) {
+  return std::make_unique<ReducedBrick>(input);
+}
+
+const RegisterElement registered({.name = "C3D8R",
+                                  .shape = Shape::hexahedron,
+                                  .nodes = nodes_per_brick,
+                                  .integration_points = 1,
+                                  .section = Section::Kind::solid,
+                                  .faces = hexahedron_faces(),
+                                  .make_group = make_group});
+
+}  // namespace
+
+/// Up to 64 elements between the two phases of a cycle, in L1.
+struct ReducedBrick::Batch {
+  std::int32_t first = 0;  // lane of the group
+  alignas(64) double coefficient[21][PointBatch<PointKind::solid>::capacity];
+  PointBatch<PointKind::solid> points;
+
+  HexahedronCoefficients<Pack> coefficients(int lane) const {
+    HexahedronCoefficients<Pack> c;
+    for (int k = 0; k < 7; ++k)
+      for (int i = 0; i < 3; ++i) c[k][i] = load(&coefficient[3 * k + i][lane]);
+    return c;
+  }
+};
+
+ReducedBrick::ReducedBrick(const GroupInput& input)
+    : ElementGroup(input),
+      material_(SolidMaterial::of_section(input.model, input.model.sections.at(input.section))),
+      enhanced_(input.model.sections[input.section].hourglass == HourglassControl::enhanced),
+      records_(static_cast<std::size_t>(padded_size_) * brick_record::size) {
+  const Section& section = input.model.sections[input.section];
+  std::array<Vector3<double>, nodes_per_brick> nodes;
+  for (std::int32_t lane = 0; lane < padded_size_; ++lane) {
+    reference_nodes(input.model, section, input.model.elements[input.table], rows_[lane], nodes);
+    const auto record = reduced_brick_record(HexahedronGeometry(nodes), material_, section);
+    double* data = records_.data() + static_cast<std::size_t>(lane / pack_size) * pack_size * brick_record::size +
+                   lane % pack_size;
+    for (int k = 0; k < brick_record::size; ++k) data[pack_size * k] = record[k];
+  }
+}
+
+void ReducedBrick::initialize_history(std::span<double> history) const {
+  std::fill(history.begin(), history.end(), 0.0);
+  std::fill_n(history.begin(), padded_size_, 1.0);
+}
+
+void ReducedBrick::lumped_mass(std::int32_t element, std::span<double> mass) const {
+  std::fill(mass.begin(), mass.end(), material_.density * reference(element)[brick_record::volume] / nodes_per_brick);
+}
+
+StableIncrement ReducedBrick::add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const {
+  const std::int32_t first = portion == Portion::interface ? 0 : interface_padded_;
+  const std::int32_t last = portion == Portion::interface ? interface_padded_ : padded_size_;
+  const bool damped = material_.damping_beta > 0.0 && cycle.increment > 0.0;
+  if (damped)
+    return enhanced_ ? add_batches<true, true>(first, last, cycle, history)
+                     : add_batches<false, true>(first, last, cycle, history);
+  return enhanced_ ? add_batches<true, false>(first, last, cycle, history)
+                   : add_batches<false, false>(first, last, cycle, history);
+}
+
+template <bool enhanced, bool damped>
+StableIncrement ReducedBrick::add_batches(std::int32_t first, std::int32_t last, const ExplicitCycle& cycle,
+                                          std::span<double> history) const {
+  StableIncrement smallest;
+  Batch batch;
+  batch.points.history_stride = padded_size_;
+  for (batch.first = first; batch.first < last; batch.first += batch.points.capacity) {
+    batch.points.count = std::min(last - batch.first, batch.points.capacity);
+    batch.points.history = history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + batch.first;
+    gather_batch(batch, cycle);
+    material_.law->stress(batch.points);
+    for (int lane = 0; lane < batch.points.count; lane += pack_size) {
+      const Pack increment = add_pack<enhanced, damped>(batch, lane, cycle, history);
+      if (std::experimental::all_of(increment >= smallest.increment)) continue;
+      for (int i = 0; i < pack_size; ++i) smallest.merge({increment[i], batch.first + lane + i});
+    }
+  }
+  return smallest;
+}
+
+void ReducedBrick::gather_batch(Batch& batch, const ExplicitCycle& cycle) const {
+  for (int lane = 0; lane < batch.points.count; lane += pack_size) {
+    const std::int32_t* nodes = connectivity_.data() + static_cast<std::size_t>(batch.first + lane) * nodes_per_brick;
+    std::array<Vector3<Pack>, nodes_per_brick> x;
+    for (int node = 0; node < nodes_per_brick; ++node) x[node] = gather(cycle.position, nodes + node, nodes_per_brick);
+    const HexahedronCoefficients<Pack> c = coefficients(x);
+    const PackReference reference{records_.data() + static_cast<std::size_t>(batch.first + lane) * brick_record::size};
+    const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
+    for (int k = 0; k < 7; ++k)
+      for (int i = 0; i < 3; ++i) store(c[k][i], &batch.coefficient[3 * k + i][lane]);
+    for (int k = 0; k < 9; ++k) store(f.component[k], &batch.points.strain[k][lane]);
+  }
+}
+
+template <bool enhanced, bool damped>
+Pack ReducedBrick::add_pack(const Batch& batch, int lane, const ExplicitCycle& cycle, std::span<double> history) const {
+  const std::size_t element = batch.first + lane;
+  const PackReference reference{records_.data() + element * brick_record::size};
+  const HexahedronCoefficients<Pack> c = batch.coefficients(lane);
+  Matrix3<Pack> f, stress;
+  for (int k = 0; k < 9; ++k) f.component[k] = load(&batch.points.strain[k][lane]);
+  for (int k = 0; k < 9; ++k) stress.component[k] = load(&batch.points.stress[k][lane]);
+  const Pack volume = reference[brick_record::volume], length = reference[brick_record::length];
+  const Invariants<Pack> invariant = invariants(f);
+
+  Pack old_jacobian(&history[element], std::experimental::element_aligned);
+  Pack dissipation(&history[padded_size_ + element], std::experimental::element_aligned);
+  const BulkViscosity viscosity(cycle.linear_bulk_viscosity, cycle.quadratic_bulk_viscosity, material_.density,
+                                material_.wave_speed);
+  const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
+  const Pack rate = volume_rate(invariant.jacobian, old_jacobian, inverse_increment);
+  const Pack mean_stress = viscosity.stress(length, rate);
+  dissipation += cycle.increment * (volume * (mean_stress * (invariant.jacobian * rate)));
+  for (int k = 0; k < 9; ++k)
+    stress.component[k] = volume * (stress.component[k] + mean_stress * invariant.cofactor.component[k]);
+
+  const std::array<Vector3<Pack>, 4> q = hourglass_vectors(c, f, reference);
+  HexahedronCoefficients<Pack> conjugates;
+  if constexpr (damped) {
+    const std::int32_t* nodes = connectivity_.data() + element * nodes_per_brick;
+    std::array<Vector3<Pack>, nodes_per_brick> v;
+    for (int node = 0; node < nodes_per_brick; ++node) v[node] = gather(cycle.velocity, nodes + node, nodes_per_brick);
+    const BrickMotion<Pack> motion{c, f, q};
+    conjugates = damped_conjugates<enhanced>(motion, coefficients(v), stress, material_, reference, cycle.increment,
+                                             dissipation);
+  } else if constexpr (enhanced) {
+    const auto hourglass_stress = hourglass_stresses(hourglass_strains(c, q), reference);
+    conjugates = conjugates_with_stresses(c, q, hourglass_stress, stress, reference);
+  } else {
+    conjugates = conjugates_with_scalar(scalar_hourglass_forces(q, reference), stress, reference);
+  }
+  const std::array<Vector3<Pack>, nodes_per_brick> forces = nodal_forces(conjugates);
+  const std::int32_t* targets = scatter_.data() + element * nodes_per_brick;
+  for (int node = 0; node < nodes_per_brick; ++node)
+    scatter_subtract(forces[node], targets + node, nodes_per_brick, cycle.force);
+
+  invariant.jacobian.copy_to(&history[element], std::experimental::element_aligned);
+  dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
+  const TangentBound<Pack> bound{load(&batch.points.volumetric_modulus[lane]), load(&batch.points.shear_modulus[lane])};
+  const BrickStability stability{material_.density, damped ? material_.damping_beta : 0.0};
+  return stability.increment(invariant, bound, q, viscosity.slope(length, rate), reference);
+}
+
+template <class T>
+HexahedronCoefficients<T> ReducedBrick::coefficients_of(std::int32_t element, const double* position) const {
+  std::array<Vector3<T>, nodes_per_brick> nodes;
+  for (int node = 0; node < nodes_per_brick; ++node) {
+    const double* x = position + 4 * static_cast<std::ptrdiff_t>(connectivity_[element * nodes_per_brick + node]);
+    for (int i = 0; i < 3; ++i) {
+      if constexpr (std::is_same_v<T, double>)
+        nodes[node][i] = x[i];
+      else
+        nodes[node][i] = T(x[i], 3 * node + i);
+    }
+  }
+  return coefficients(nodes);
+}
+
+template <class T>
+std::array<Vector3<T>, 8> ReducedBrick::static_forces(const HexahedronCoefficients<T>& c, const Matrix3<T>& f,
+                                                      const Matrix3<T>& stress, const LaneReference& reference) const {
+  const auto q = hourglass_vectors(c, f, reference);
+  const Matrix3<T> integrated = T(reference[brick_record::volume]) * stress;
+  if (!enhanced_)
+    return nodal_forces(conjugates_with_scalar(scalar_hourglass_forces(q, reference), integrated, reference));
+  const auto hourglass_stress = hourglass_stresses(hourglass_strains(c, q), reference);
+  return nodal_forces(conjugates_with_stresses(c, q, hourglass_stress, integrated, reference));
+}
+
+bool ReducedBrick::linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+                             std::span<double> new_history, std::span<double> force,
+                             std::span<double> stiffness) const {
+  using Derivative = Dual<3 * nodes_per_brick>;
+  const LaneReference record = reference(element);
+  const auto c = coefficients_of<double>(element, position);
+  const Matrix3<double> f = mean_deformation_gradient(c, record);
+  const double jacobian = determinant(f, cofactor(f));
+  if (!(jacobian > 0.0)) return false;
+
+  std::copy(old_history.begin(), old_history.end(), new_history.begin());
+  new_history[0] = jacobian;
+  Matrix3<double> stress;
+  std::array<double, 81> tangent;
+  material_.law->tangent(f.component, new_history.subspan(own_history), stress.component, tangent);
+
+  if (stiffness.empty()) {
+    const auto forces = static_forces(c, f, stress, record);
+    for (int i = 0; i < 3 * nodes_per_brick; ++i) force[i] = forces[i / 3][i % 3];
+    return true;
+  }
+  const auto c_dual = coefficients_of<Derivative>(element, position);
+  const Matrix3<Derivative> f_dual = mean_deformation_gradient(c_dual, record);
+  Matrix3<Derivative> stress_dual;
+  for (int i = 0; i < 9; ++i) {
+    stress_dual.component[i] = Derivative(stress.component[i]);
+    for (int j = 0; j < 9; ++j)
+      for (int k = 0; k < 3 * nodes_per_brick; ++k)
+        stress_dual.component[i].derivative[k] += tangent[9 * i + j] * f_dual.component[j].derivative[k];
+  }
+  const auto forces = static_forces(c_dual, f_dual, stress_dual, record);
+  for (int i = 0; i < 3 * nodes_per_brick; ++i) {
+    force[i] = forces[i / 3][i % 3].value;
+    for (int j = 0; j < 3 * nodes_per_brick; ++j)
+      stiffness[3 * nodes_per_brick * i + j] = forces[i / 3][i % 3].derivative[j];
+  }
+  return true;
+}
+
+ElementEnergies ReducedBrick::energies(std::int32_t element, const double* position,
+                                       std::span<const double> history) const {
+  const LaneReference record = reference(element);
+  const auto c = coefficients_of<double>(element, position);
+  const Matrix3<double> f = mean_deformation_gradient(c, record);
+  const auto q = hourglass_vectors(c, f, record);
+  ElementEnergies energies;
+  energies.strain =
+      record[brick_record::volume] * material_.law->energy_density(f.component, history.subspan(own_history));
+  energies.viscous = history[1];
+  if (enhanced_) {
+    const auto strain = hourglass_strains(c, q);
+    const auto stress = hourglass_stresses(strain, record);
+    for (int k = 0; k < 12; ++k) energies.hourglass += 0.5 * strain[k] * stress[k];
+  } else {
+    for (const auto& vector : q) energies.hourglass += 0.5 * record[brick_record::stiffness] * dot(vector, vector);
+  }
+  return energies;
+}
+
+int ReducedBrick::output_components(std::string_view variable) const {
+  return solid_output_components(variable);
+}
+
+void ReducedBrick::output(std::string_view variable, std::int32_t element, int, const double* position,
+                          std::span<const double> history, std::span<double> values) const {
+  const Matrix3<double> f = mean_deformation_gradient(coefficients_of<double>(element, position), reference(element));
+  solid_output(variable, material_, f, history.subspan(own_history), values);
+}
+
+std::size_t ReducedBrick::bytes_per_element() const {
+  return sizeof(double) * (brick_record::size + history_size()) + sizeof(std::int32_t) * (2 * nodes_per_brick + 1);
+}
+
+}  // namespace balocco
