@@ -1,0 +1,484 @@
+#include "rigid_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "constraints/rigid_body.hpp"
+#include "contact_model.hpp"
+
+namespace balocco {
+namespace {
+
+using namespace test;
+
+/// A pair with all that its functions ask for; node 0 (a corner of the plate) is the point that most tests move.
+struct Contact {
+  Model model;
+  Domain domain;
+  RigidContact pair;
+  RigidBodyState master;
+  std::vector<double> position;
+  std::vector<ContactPoint> points;
+
+  explicit Contact(const AnalyticalSurface& surface = road({line({-300, 0}, {300, 0})}), double mu = friction,
+                   std::optional<double> elastic_slip = std::nullopt)
+      : model(make_model(surface, mu, elastic_slip)),
+        domain(whole(model)),
+        pair(model, 0, domain),
+        master(initial_rigid_bodies(model)[0]),
+        position(positions(model, domain)),
+        points(pair.size()) {}
+
+  static Model make_model(const AnalyticalSurface& surface, double mu, std::optional<double> elastic_slip) {
+    Model model = plate_on_road(1, surface);
+    model.interactions[0].friction = mu;
+    model.interactions[0].elastic_slip = elastic_slip;
+    return model;
+  }
+
+  double k() const { return pair.normal_stiffness(0); }
+  void place(const Point& at) { std::copy(at.begin(), at.end(), position.begin()); }
+
+  /// Force of the explicit loop on node 0, with a rounding constant so fine that it hides nothing.
+  Point force() {
+    std::vector<double> sum(position.size(), 0.0);
+    for (std::size_t i = 3; i < sum.size(); i += 4) sum[i] = rounding_constant(1e-3 * k());
+    pair.add_forces(position.data(), master, points, sum.data());
+    return {sum[0], sum[1], sum[2]};
+  }
+  ContactTangent tangent(ContactPoint& updated) const {
+    return pair.linearize(0, position.data(), master, points[0], updated);
+  }
+};
+
+double norm(const Point& a) {
+  return std::sqrt(a[0] * a[0] + a[1] * a[1] + a[2] * a[2]);
+}
+
+TEST(RigidContact, PenetrationPushesBackAndAGapDoesNothing) {
+  Contact contact;
+  contact.place({3, 4, 0.01});
+  EXPECT_EQ(contact.force(), (Point{0, 0, 0}));
+  EXPECT_EQ(contact.points[0].closed, 0.0);
+  contact.place({3, 4, -0.002});
+  const Point force = contact.force();
+  EXPECT_NEAR(force[2], 0.002 * contact.k(), 1e-12);
+  EXPECT_NEAR(std::hypot(force[0], force[1]), 0.0, 1e-15);
+  EXPECT_EQ(contact.points[0].closed, 1.0);
+  EXPECT_NEAR(contact.points[0].anchor[0], 3 - reference[0], 1e-15);
+  EXPECT_NEAR(contact.points[0].anchor[2], 0 - reference[2], 1e-15);  // on the surface
+}
+
+TEST(RigidContact, OpeningForgetsAnchorAndMultiplier) {
+  Contact contact;
+  contact.points[0].multiplier = 0.5;
+  contact.place({0, 0, 0.1 / contact.k()});
+  EXPECT_NEAR(contact.force()[2], 0.4, 1e-12);  // the multiplier holds a small gap closed
+  contact.place({0, 0, 0.6 / contact.k()});
+  EXPECT_EQ(contact.force(), (Point{0, 0, 0}));
+  EXPECT_EQ(contact.points[0].multiplier, 0.0);
+  EXPECT_EQ(contact.points[0].closed, 0.0);
+  EXPECT_EQ(contact.points[0].anchor, (Point{0, 0, 0}));
+}
+
+TEST(RigidContact, SticksThenSlipsAtCoulombsLimit) {
+  Contact contact;
+  const double depth = 0.01, pressure = contact.k() * depth, limit = friction * pressure;
+  contact.place({0, 0, -depth});
+  contact.force();
+  const double stick = 0.5 * friction * depth;  // half-way to the limit, since the springs are alike
+  contact.place({stick, 0, -depth});
+  Point force = contact.force();
+  EXPECT_NEAR(force[0], -contact.k() * stick, 1e-12);
+  EXPECT_EQ(contact.points[0].slip, 0.0);
+  EXPECT_EQ(contact.points[0].frictional_dissipation, 0.0);
+
+  const double slip = 0.2;
+  contact.place({friction * depth + slip, 0, -depth});
+  force = contact.force();
+  EXPECT_NEAR(force[0], -limit, 1e-12);
+  EXPECT_NEAR(contact.points[0].slip, slip, 1e-13);
+  EXPECT_NEAR(contact.points[0].frictional_dissipation, limit * slip, 1e-12);
+
+  contact.place({friction * depth + slip - stick, 0, -depth});  // turning back unloads the spring, without dissipation
+  force = contact.force();
+  EXPECT_NEAR(force[0], -limit + contact.k() * stick, 1e-12);
+  EXPECT_NEAR(contact.points[0].slip, slip, 1e-13);
+}
+
+TEST(RigidContact, SlipIsOppositeToTheFrictionForceInThePlane) {
+  Contact contact;
+  contact.place({0, 0, -0.01});
+  contact.force();
+  contact.place({0.3, -0.4, -0.01});
+  const Point force = contact.force();
+  EXPECT_NEAR(force[0], -0.6 * friction * force[2], 1e-12);
+  EXPECT_NEAR(force[1], 0.8 * friction * force[2], 1e-12);
+}
+
+TEST(RigidContact, ElasticSlipSetsTheStretchAtTheLimit) {
+  const double elastic_slip = 0.02;
+  Contact contact(road({line({-300, 0}, {300, 0})}), friction, elastic_slip);
+  const double depth = 0.01, limit = friction * contact.k() * depth;
+  contact.place({0, 0, -depth});
+  contact.force();
+  contact.place({0.5 * elastic_slip, 0, -depth});
+  EXPECT_NEAR(contact.force()[0], -0.5 * limit, 1e-12);
+  contact.place({elastic_slip + 0.1, 0, -depth});
+  EXPECT_NEAR(contact.force()[0], -limit, 1e-12);
+  EXPECT_NEAR(contact.points[0].slip, 0.1, 1e-13);
+}
+
+TEST(RigidContact, FrictionlessForceIsTheSlopeOfTheEnergy) {
+  Contact contact(hilly_road(), 0.0);
+  contact.master.position[0] += 3.0;
+  rotate(contact.master, {0.2, -0.1, 0.3});
+  const double h = 1e-5;
+  for (const double x : {-20.0, 0.0, 12.0}) {
+    const Point at{x, 2.0, -4.0};
+    contact.place(at);
+    const Point force = contact.force();
+    ASSERT_GT(norm(force), 0.0);
+    for (int i = 0; i < 3; ++i) {
+      Point plus = at, minus = at;
+      plus[i] += h;
+      minus[i] -= h;
+      contact.place(plus);
+      const double above = contact.pair.output(0, contact.position.data(), contact.master, {}).spring_energy;
+      contact.place(minus);
+      const double below = contact.pair.output(0, contact.position.data(), contact.master, {}).spring_energy;
+      // Central difference of a nearly quadratic energy of size 1e3: round-off 1e-13 * 1e3 / 1e-5.
+      EXPECT_NEAR(force[i], -(above - below) / (2 * h), 1e-5);
+    }
+  }
+}
+
+struct TangentCase {
+  const char* name;
+  AnalyticalSurface surface;
+  std::optional<double> elastic_slip;
+  double stretch;  // of the tangential spring, in units of its limit
+};
+
+class TangentOrder : public testing::TestWithParam<TangentCase> {};
+
+/// Largest error of the central difference of step `h` in any direction of the node, the master and its spin.
+double difference_error(const Contact& contact, double h) {
+  ContactPoint updated;
+  const auto exact = contact.tangent(updated);
+  double error = 0.0;
+  for (int direction = 0; direction < 9; ++direction) {
+    std::array<double, 3> forces[2];
+    for (const int side : {0, 1}) {
+      std::vector<double> position = contact.position;
+      RigidBodyState master = contact.master;
+      const double step = side == 0 ? -h : h;
+      if (direction < 3) position[direction] += step;
+      if (direction >= 3 && direction < 6) master.position[direction - 3] += step;
+      Point spin{};
+      if (direction >= 6) spin[direction - 6] = step;
+      rotate(master, spin);
+      forces[side] = contact.pair.linearize(0, position.data(), master, contact.points[0], updated).force;
+    }
+    for (int i = 0; i < 3; ++i) {
+      const double slope = (forces[1][i] - forces[0][i]) / (2 * h);
+      error = std::max(error, std::abs(slope - exact.derivative[9 * i + direction]));
+    }
+  }
+  return error;
+}
+
+TEST_P(TangentOrder, DifferencesApproachTheTangentQuadratically) {
+  const TangentCase& c = GetParam();
+  Contact contact(c.surface, friction, c.elastic_slip);
+  rotate(contact.master, {0.25, -0.15, 0.3});
+  contact.place({4.0, 3.0, -3.0});
+  ContactPoint closed;
+  ASSERT_TRUE(contact.tangent(closed).closed);
+  contact.points[0] = closed;
+  contact.points[0].multiplier = 0.7;
+  const auto at = contact.pair.output(0, contact.position.data(), contact.master, closed);
+  const double limit = c.elastic_slip.value_or(friction * at.pressure * contact.pair.area(0) / contact.k());
+  contact.points[0].anchor[0] += 0.8 * c.stretch * limit;
+  contact.points[0].anchor[1] -= 0.6 * c.stretch * limit;
+  ContactPoint updated;
+  contact.tangent(updated);
+  ASSERT_EQ(updated.slip > 0.0, c.stretch > 1.0);
+
+  const double coarse = difference_error(contact, 4e-3), fine = difference_error(contact, 2e-3);
+  const double roundoff = 1e-9 * contact.k() * 10;
+  EXPECT_LT(fine, 1e-3 * contact.k());
+  EXPECT_LT(fine, std::max(0.27 * coarse, roundoff)) << coarse << " " << fine;
+}
+
+INSTANTIATE_TEST_SUITE_P(Cases, TangentOrder,
+                         testing::Values(TangentCase{"FlatStick", road({line({-300, 0}, {300, 0})}), {}, 0.5},
+                                         TangentCase{"FlatSlip", road({line({-300, 0}, {300, 0})}), {}, 3.0},
+                                         TangentCase{"HillStick", hilly_road(), {}, 0.5},
+                                         TangentCase{"HillSlip", hilly_road(), {}, 3.0},
+                                         TangentCase{"HillElasticSlipStick", hilly_road(), 9.0, 0.5},
+                                         TangentCase{"HillElasticSlipSlip", hilly_road(), 9.0, 1.5}),
+                         [](const auto& info) { return std::string(info.param.name); });
+
+// What makes the import of contact exact.
+TEST(RigidContact, ExplicitAndImplicitForcesAreTheSameBits) {
+  Contact contact(hilly_road());
+  rotate(contact.master, {0.1, 0.2, -0.3});
+  contact.place({4.0, 3.0, -2.0});
+  contact.force();
+  contact.place({-6.0, 13.0, -2.1});
+  contact.points[0].multiplier = 0.3;
+  std::vector<double> sum(contact.position.size(), 0.0);  // constant 0: rounding changes nothing
+  ContactPoint updated;
+  const auto implicit = contact.tangent(updated);
+  auto points = contact.points;
+  contact.pair.add_forces(contact.position.data(), contact.master, points, sum.data());
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(sum[i], implicit.force[i]);
+  EXPECT_GT(points[0].slip, 0.0);
+  EXPECT_EQ(points[0].slip, updated.slip);
+  EXPECT_EQ(points[0].anchor, updated.anchor);
+  EXPECT_EQ(points[0].frictional_dissipation, updated.frictional_dissipation);
+}
+
+TEST(RigidContact, ForceStaysWhereNothingMoves) {
+  Contact contact(hilly_road());
+  rotate(contact.master, {0.1, 0.2, -0.3});
+  contact.place({4.0, 3.0, -2.0});
+  contact.force();
+  contact.place({-6.0, 13.0, -2.1});
+  ContactPoint updated;
+  const auto implicit = contact.tangent(updated);
+  contact.points[0] = updated;
+  std::vector<double> sum(contact.position.size(), 0.0);
+  for (int cycle = 0; cycle < 100; ++cycle) {
+    std::fill(sum.begin(), sum.end(), 0.0);
+    contact.pair.add_forces(contact.position.data(), contact.master, contact.points, sum.data());
+  }
+  // Round-off of an arm of length 16 from the reference node against a stretch of 6.
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(sum[i], implicit.force[i], 1e-14 * norm(implicit.force));
+  EXPECT_NEAR(contact.points[0].slip, updated.slip, 1e-14);
+}
+
+TEST(RigidContact, MovingEverythingTurnsTheForceAlong) {
+  Contact contact(hilly_road());
+  contact.place({4.0, 3.0, 8.0});
+  contact.force();
+  contact.place({4.5, 2.9, 8.5});
+  auto points = contact.points;
+  const Point before = contact.force();
+  ASSERT_GT(norm(before), 0.0);
+
+  RigidBodyState turn;
+  rotate(turn, {0.4, -1.2, 2.0});
+  const auto rotation = rotation_matrix(turn);
+  const Vector3<double> shift{100.0, -20.0, 7.0};
+  const auto move = [&](const Point& p) { return (rotation * Vector3<double>{p} + shift).component; };
+  contact.place(move({4.5, 2.9, 8.5}));
+  contact.master.position = move(contact.master.position);
+  rotate(contact.master, {0.4, -1.2, 2.0});
+  contact.points = points;
+  const Point after = contact.force();
+  const auto expected = rotation * Vector3<double>{before};
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(after[i], expected[i], 1e-11);  // lengths of 100 lose 2 digits
+}
+
+TEST(RigidContact, AStickingNodeIsDraggedByTheMovingRoad) {
+  Contact contact;
+  contact.place({0, 0, -0.01});
+  contact.force();
+  contact.master.position[0] += 0.001;
+  EXPECT_NEAR(contact.force()[0], 0.001 * contact.k(), 1e-12);
+}
+
+// A mass m thrown along the road at v stops after v^2 / (2 mu g), and what it had becomes frictional dissipation.
+TEST(RigidContact, SlidingMassStopsWhereCoulombSays) {
+  Contact contact;
+  const double mass = 0.01, gravity = 10.0, speed = 2.0;
+  const double depth = mass * gravity / contact.k();
+  const double dt = 0.05 / std::sqrt(contact.k() / mass);
+  Point x{0, 0, -depth}, v{speed, 0, 0};
+  contact.place(x);
+  contact.force();
+  double time = 0.0;
+  for (; time < 1.2 * speed / (friction * gravity); time += dt) {
+    const Point force = contact.force();
+    for (int i = 0; i < 3; ++i) {
+      v[i] += dt * (force[i] / mass - (i == 2 ? gravity : 0.0));
+      x[i] += dt * v[i];
+    }
+    contact.place(x);
+  }
+  const double elastic = friction * depth;  // stretch of the tangential spring at the limit
+  const double distance = speed * speed / (2 * friction * gravity);
+  EXPECT_NEAR(x[0], distance, 2 * elastic);
+  const double kinetic = 0.5 * mass * speed * speed;
+  EXPECT_NEAR(contact.points[0].frictional_dissipation, kinetic, friction * mass * gravity * 2 * elastic);
+  EXPECT_NEAR(contact.points[0].slip, distance, 2 * elastic);
+}
+
+TEST(RigidContact, AugmentationDrivesThePenetrationOut) {
+  Contact contact;
+  const double load = 3.0;
+  double penetration = load / contact.k();
+  for (int i = 0; i < 4; ++i) {  // equilibrium of one node under `load`: multiplier - k gap = load
+    const double gap = (contact.points[0].multiplier - load) / contact.k();
+    contact.place({0, 0, gap});
+    const double greatest = contact.pair.augment(contact.position.data(), contact.master, contact.points);
+    EXPECT_NEAR(greatest, i == 0 ? penetration : 0.0, 1e-15);
+    EXPECT_NEAR(contact.points[0].multiplier, load, 1e-12);
+    EXPECT_EQ(contact.points[0].closed, 0.0);  // only multipliers change
+  }
+}
+
+TEST(RigidContact, AugmentationDropsMultipliersOfOpenPoints) {
+  Contact contact;
+  contact.points[0].multiplier = 1.0;
+  contact.place({0, 0, 10.0 / contact.k()});
+  contact.pair.augment(contact.position.data(), contact.master, contact.points);
+  EXPECT_EQ(contact.points[0].multiplier, 0.0);
+}
+
+TEST(RigidContact, ForcesAreRoundedWithTheNodesConstantAndAddUpInAnyOrder) {
+  Contact contact;
+  contact.place({0, 0, -0.0123});
+  std::vector<double> sum(contact.position.size(), 0.0);
+  const double constant = rounding_constant(1e6);
+  const double quantum = std::nextafter(constant, 2 * constant) - constant;
+  sum[3] = constant;
+  sum[2] = 7 * quantum;
+  contact.pair.add_forces(contact.position.data(), contact.master, contact.points, sum.data());
+  EXPECT_EQ(sum[3], constant);
+  EXPECT_EQ(std::remainder(sum[2], quantum), 0.0);
+  EXPECT_NEAR(sum[2], contact.k() * 0.0123 + 7 * quantum, quantum);
+}
+
+TEST(RigidContact, CopiesOfANodeOnTwoRanksGetTheSameBits) {
+  Contact contact(hilly_road());
+  Domain other;
+  other.local_node.assign(contact.model.nodes.size(), -1);
+  for (const std::int32_t row : {8, 3, 1}) {
+    other.local_node[row] = static_cast<std::int32_t>(other.node_row.size());
+    other.node_row.push_back(row);
+    other.owned.push_back(false);
+  }
+  const RigidContact copy(contact.model, 0, other);
+  std::vector<ContactPoint> points(copy.size());
+  contact.master.position[2] -= 8.73;  // the hill now touches nodes 1 and 3, at x = 10
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> jitter(-0.3, 0.3);
+  int closed = 0;
+  for (int cycle = 0; cycle < 50; ++cycle) {
+    auto position = positions(contact.model, contact.domain);
+    for (double& x : position) x += jitter(random);
+    std::vector<double> position_of_copy(4 * (other.node_row.size() + 1));
+    for (std::size_t i = 0; i < other.node_row.size(); ++i)
+      std::copy_n(&position[4 * other.node_row[i]], 4, &position_of_copy[4 * i]);
+    std::vector<double> force(position.size(), 0.0), force_of_copy(position_of_copy.size(), 0.0);
+    for (std::size_t i = 3; i < force.size(); i += 4) force[i] = rounding_constant(1e5);
+    for (std::size_t i = 3; i < force_of_copy.size(); i += 4) force_of_copy[i] = rounding_constant(1e5);
+    contact.pair.add_forces(position.data(), contact.master, contact.points, force.data());
+    copy.add_forces(position_of_copy.data(), contact.master, points, force_of_copy.data());
+    for (const std::int32_t row : {1, 3})
+      for (int k = 0; k < 4; ++k) ASSERT_EQ(force[4 * row + k], force_of_copy[4 * other.local_node[row] + k]);
+    closed += force[4 * 1 + 2] != 0.0;
+  }
+  EXPECT_GT(closed, 5);
+  EXPECT_LT(closed, 50);
+}
+
+TEST(RigidContact, MasterGetsTheOppositeForceAndItsMoment) {
+  Contact contact(hilly_road());
+  contact.place({4.0, 3.0, 8.0});
+  contact.force();
+  contact.place({4.5, 2.9, 8.5});
+  const Point force = contact.force();
+  std::array<ExactSum, 6> sums;
+  contact.pair.add_master_resultant(contact.position.data(), contact.master, contact.points, sums);
+  Point total{}, moment{};  // over all four nodes of the plate, which the hill all reaches
+  for (std::int32_t i = 0; i < contact.pair.size(); ++i) {
+    const auto at = contact.pair.output(i, contact.position.data(), contact.master, contact.points[i]);
+    const Point f{at.normal_force[0] + at.friction_force[0], at.normal_force[1] + at.friction_force[1],
+                  at.normal_force[2] + at.friction_force[2]};
+    for (int k = 0; k < 3; ++k) {
+      const int a = (k + 1) % 3, b = (k + 2) % 3;
+      total[k] += f[k];
+      moment[k] +=
+          (contact.position[4 * i + a] - reference[a]) * f[b] - (contact.position[4 * i + b] - reference[b]) * f[a];
+    }
+    if (i == 0) {
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(f[k], force[k], 1e-10);
+    }
+  }
+  for (int k = 0; k < 3; ++k) {
+    EXPECT_NEAR(sums[k].value(), -total[k], 1e-10);
+    EXPECT_NEAR(sums[3 + k].value(), -moment[k], 1e-9);
+  }
+}
+
+TEST(RigidContact, OutputTellsPressureShearAndSlip) {
+  Contact contact;
+  contact.place({0, 0, -0.01});
+  contact.force();
+  contact.place({0.5, 0, -0.01});
+  const Point force = contact.force();
+  const auto out = contact.pair.output(0, contact.position.data(), contact.master, contact.points[0]);
+  EXPECT_NEAR(out.gap, -0.01, 1e-15);
+  EXPECT_NEAR(out.pressure, force[2] / 25.0, 1e-13);
+  EXPECT_NEAR(out.shear, friction * out.pressure, 1e-13);
+  EXPECT_EQ(out.slip, contact.points[0].slip);
+  const double tangential = friction * 0.01;
+  EXPECT_NEAR(out.spring_energy, 0.5 * contact.k() * (1e-4 + tangential * tangential), 1e-13);
+}
+
+TEST(RigidContact, ResultantSumsOverTheSurface) {
+  Contact contact;
+  const double depth = 0.01;
+  contact.master.position[2] += depth;
+  contact.points.assign(4, {});
+  contact.force();
+  const auto sum =
+      contact.pair.resultant(Communicator(MPI_COMM_SELF), contact.position.data(), contact.master, contact.points);
+  const double total = dilatational_modulus * 100.0 / (2 * height) * depth;
+  EXPECT_NEAR(sum.normal_force[2], total, 1e-12);
+  EXPECT_NEAR(sum.friction_force[0], 0.0, 1e-12);
+  EXPECT_NEAR(sum.moment[0], 5.0 * total, 1e-11);
+  EXPECT_NEAR(sum.moment[1], -5.0 * total, 1e-11);
+  EXPECT_DOUBLE_EQ(sum.area, 100.0);
+  EXPECT_NEAR(sum.center[0], 5.0, 1e-12);
+  EXPECT_NEAR(sum.center[1], 5.0, 1e-12);
+  EXPECT_NEAR(sum.greatest_penetration, depth, 1e-15);
+}
+
+TEST(RigidContact, LightestNodeBoundsTheSpringFrequency) {
+  const Contact contact;
+  std::vector<double> mass(contact.domain.size(), 1.0);
+  mass[2] = 0.25;
+  mass[1] = 0.0;  // without mass: left out
+  EXPECT_DOUBLE_EQ(contact.pair.largest_spring_frequency_squared(mass), contact.k() / 0.25);
+}
+
+// A drum of radius 50 about the global y axis, outward.
+TEST(RigidSurface, RevolvedProfileMeasuresTheDistanceToTheAxis) {
+  AnalyticalSurface drum;
+  drum.kind = AnalyticalSurface::Kind::revolved;
+  drum.origin = {1, 2, 3};
+  drum.axes = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  drum.profile = {line({50, 10}, {50, -10})};  // runs in -z of the profile: outward is +r
+  const RigidSurface surface(drum, {1, 1, 1});
+  using Scalar = Dual<3>;
+  const Vector3<Scalar> place{Scalar(24.0, 0), Scalar(4.0, 1), Scalar(2.0 + 32.0, 2)};  // (24, 3, 32) from the origin
+  const auto at = surface.nearest(place);
+  EXPECT_DOUBLE_EQ(at.distance.value, -10.0);
+  const double expected[3] = {0.6, 0.0, 0.8};
+  for (int i = 0; i < 3; ++i) {
+    EXPECT_NEAR(at.normal[i].value, expected[i], 1e-15);
+    EXPECT_NEAR(at.distance.derivative[i], expected[i], 1e-15);
+  }
+  EXPECT_NEAR(at.normal[0].derivative[2], -0.6 * 0.8 / 40.0, 1e-15);
+  EXPECT_DOUBLE_EQ(surface.nearest(Vector3<double>{0.0, 5.0, 2.0}).distance, -50.0);  // on the axis
+}
+
+}  // namespace
+}  // namespace balocco
