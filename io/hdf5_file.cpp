@@ -125,6 +125,11 @@ bool Hdf5File::exists(const std::string& path) const {
   return path == "/" || H5Lexists(file_, path.c_str(), H5P_DEFAULT) > 0;
 }
 
+bool Hdf5File::is_group(const std::string& path) const {
+  H5O_info_t info;
+  return H5Oget_info_by_name(file_, path.c_str(), &info, H5P_DEFAULT) >= 0 && info.type == H5O_TYPE_GROUP;
+}
+
 void Hdf5File::create_group(const std::string& path) const {
   const Hdf5Id group(H5Gcreate2(file_, path.c_str(), link_properties(), group_properties(), H5P_DEFAULT));
   if (!group.valid()) fail("take the group " + path);

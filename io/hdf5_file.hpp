@@ -51,6 +51,7 @@ class Hdf5File {
   void close();
 
   bool exists(const std::string& path) const;  // every group on the way is looked for, too
+  bool is_group(const std::string& path) const;
   void create_group(const std::string& path) const;
   void remove(const std::string& path) const;
   /// Names in a group, those that end in numbers by number.

@@ -35,16 +35,18 @@ Schedule Schedule::every_increments(std::int32_t count, double duration) {
   return schedule;
 }
 
-Schedule Schedule::of(const FieldOutput& output, double duration) {
-  if (output.time_interval) return every(*output.time_interval, duration);
-  if (output.number_interval) return equal_intervals(*output.number_interval, duration);
-  if (output.frequency) return every_increments(*output.frequency, duration);
-  return at(output.time_points, duration);
+Schedule Schedule::of(const FieldOutput& output, const Step& step) {
+  if (output.time_interval) return every(*output.time_interval, step.duration());
+  if (output.number_interval) return equal_intervals(*output.number_interval, step.duration());
+  if (output.frequency) return every_increments(*output.frequency, step.duration());
+  return at(output.time_points, step.duration());
 }
 
-Schedule Schedule::of(const HistoryOutput& output, double duration) {
-  if (output.time_interval) return every(*output.time_interval, duration);
-  return every_increments(output.frequency.value_or(1), duration);
+Schedule Schedule::of(const HistoryOutput& output, const Step& step) {
+  if (output.time_interval) return every(*output.time_interval, step.duration());
+  if (output.frequency) return every_increments(*output.frequency, step.duration());
+  if (step.procedure == Step::Procedure::explicit_dynamics) return equal_intervals(200, step.duration());
+  return every_increments(1, step.duration());
 }
 
 double Schedule::mark(std::int64_t index) const {

@@ -11,8 +11,9 @@ namespace balocco {
 /// The marks of one request within a step of `duration`. The end of the step is always a mark.
 class Schedule {
  public:
-  static Schedule of(const FieldOutput& output, double duration);
-  static Schedule of(const HistoryOutput& output, double duration);
+  static Schedule of(const FieldOutput& output, const Step& step);
+  /// Where nothing was said: every static increment, 200 intervals of an explicit step (Abaqus).
+  static Schedule of(const HistoryOutput& output, const Step& step);
   static Schedule every(double interval, double duration);
   static Schedule equal_intervals(std::int32_t count, double duration);
   static Schedule at(std::vector<double> times, double duration);

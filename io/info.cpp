@@ -1,0 +1,108 @@
+#include "info.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <iterator>
+
+#include "hdf5_file.hpp"
+#include "model/diagnostics.hpp"
+#include "results_index.hpp"
+
+namespace balocco {
+
+namespace {
+
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : " ") + name;
+  return text;
+}
+
+std::string names_of(const FieldBlock& block) {
+  std::vector<std::string> names;
+  for (const FieldRecord& field : block.fields) names.push_back(field.name);
+  return joined(names);
+}
+
+/// Lines collected with a format each.
+class Report {
+ public:
+  template <class... Arguments>
+  void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
+    fmt::format_to(std::back_inserter(text), format, std::forward<Arguments>(arguments)...);
+    text += '\n';
+  }
+  std::string text;
+};
+
+void describe_mesh(const Hdf5File& file, const ResultsIndex& index, Report& report) {
+  report.line("nodes     {}", index.nodes);
+  for (const MeshBlock& block : index.blocks) report.line("elements  {} {}", block.elements, block.type);
+  for (const std::string& part : file.children("/mesh/part")) {
+    const std::string path = "/mesh/part/" + part;
+    report.line("part {:<4} {}: {}, material {}", part, file.text_attribute(path, "name"), file.text_attribute(path, "section"),
+                file.text_attribute(path, "material"));
+  }
+  report.line("node sets     {}", joined(file.children("/mesh/set/node")));
+  report.line("element sets  {}", joined(file.children("/mesh/set/element")));
+}
+
+void describe_history(const Hdf5File& file, const std::string& step, Report& report) {
+  if (!file.exists(step + "/history")) return;
+  for (const std::string& name : file.children(step + "/history")) {
+    const std::string group = step + "/history/" + name;
+    std::vector<std::string> variables;
+    for (const std::string& variable : file.children(group)) {
+      if (variable != "time") variables.push_back(variable);
+    }
+    const hsize_t rows = file.exists(group + "/time") ? file.extent(group + "/time")[0] : 0;
+    report.line("    history {:<24} {:>7} rows  {}", name, rows, joined(variables));
+  }
+}
+
+void describe_step(const Hdf5File& file, const ResultsIndex& index, const std::string& step, Report& report) {
+  const bool completed = file.integer_attribute(step, "completed") != 0;
+  report.line("{} {} ({}), time {:g} to {:g}, {}", step.substr(1), file.text_attribute(step, "name"),
+              file.text_attribute(step, "procedure"), file.number_attribute(step, "time_start"),
+              file.number_attribute(step, "time_end"), completed ? "completed" : "not completed");
+  const FrameRecord* last = nullptr;
+  int frames = 0;
+  for (const FrameRecord& frame : index.frames) {
+    if (!frame.path.starts_with(step + "/")) continue;
+    last = &frame;
+    ++frames;
+  }
+  report.line("    {} frames", frames);
+  if (last != nullptr) {
+    report.line("    last frame at time {:g}, increment {}", last->time, last->increment);
+    report.line("      node  {}", names_of(last->nodes));
+    for (const FieldBlock& block : last->elements) report.line("      {}  {}", block.type, names_of(block));
+  }
+  describe_history(file, step, report);
+}
+
+}  // namespace
+
+std::string describe_results(const std::string& path) {
+  if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: error: no such file", path));
+  silence_hdf5();
+  if (H5Fis_hdf5(path.c_str()) <= 0) throw InputError(fmt::format("{}: error: not an HDF5 file", path));
+  const Hdf5File file(path, Hdf5File::Mode::read);
+  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != "balocco") {
+    throw InputError(fmt::format("{}: error: not a results file of Balocco; info reads JOB.h5", path));
+  }
+  const ResultsIndex index = index_results(file);
+  Report report;
+  const std::string heading = file.text_attribute("/", "heading");
+  report.line("{}{}{}", file.text_attribute("/", "name"), heading.empty() ? "" : ": ", heading);
+  report.line("written by Balocco {}, units {}", file.text_attribute("/", "code_version"),
+              file.text_attribute("/", "units").empty() ? "not declared" : file.text_attribute("/", "units"));
+  describe_mesh(file, index, report);
+  for (const std::string& step : file.children("/")) {
+    if (number_in(step, "step_") >= 0) describe_step(file, index, "/" + step, report);
+  }
+  return report.text;
+}
+
+}  // namespace balocco

@@ -1,0 +1,159 @@
+#include "status.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+
+#include "elements/element_type.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+std::FILE* open(const std::string& path, bool append) {
+  std::FILE* file = std::fopen(path.c_str(), append ? "a" : "w");
+  if (file == nullptr) throw SystemError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  return file;
+}
+
+bool is_static(const Step& step) { return step.procedure == Step::Procedure::static_analysis; }
+
+}  // namespace
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds)) return "?";
+  const auto whole = static_cast<long long>(seconds + 0.5);
+  if (whole < 60) return fmt::format("{:.1f} s", seconds);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+Status::Status(const std::string& status_path, const std::string& log_path, const Model& model, bool restarted, bool root)
+    : model_(&model), root_(root), terminal_(::isatty(STDOUT_FILENO) == 1), begin_(std::chrono::steady_clock::now()) {
+  if (!root_) return;
+  status_ = open(status_path, restarted);
+  log_ = open(log_path, restarted);
+  for (const ElementTable& table : model.elements) {
+    if (table.type->make_group != nullptr) element_count_ += table.size();
+  }
+  const std::string title = model.heading.empty() ? model.name : fmt::format("{}: {}", model.name, model.heading);
+  line(status_, restarted ? "Restarted" : "Balocco " BALOCCO_VERSION ", " + title);
+}
+
+Status::~Status() {
+  if (status_ != nullptr) std::fclose(status_);
+  if (log_ != nullptr) std::fclose(log_);
+}
+
+double Status::seconds() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin_).count(); }
+
+void Status::line(std::FILE* file, const std::string& text) {
+  std::fprintf(file, "%s\n", text.c_str());
+  std::fflush(file);
+}
+
+void Status::start_step(std::int32_t step, const State& state, double total_energy) {
+  step_ = step;
+  step_begin_seconds_ = seconds();
+  step_begin_time_ = state.step_time;
+  step_begin_increment_ = state.increment;
+  step_begin_energy_ = total_energy;
+  const Step& what = model_->steps[step];
+  shown_twentieth_ = static_cast<int>(20.0 * state.step_time / what.duration() + 1e-9);
+  if (!root_) return;
+  line(status_, fmt::format("\nStep {} {}: {}, {:g} time units", step + 1, what.name, is_static(what) ? "static" : "explicit dynamics",
+                            what.duration()));
+  if (is_static(what)) {
+    line(status_, fmt::format("{:>6} {:>6} {:>13} {:>13} {:>13} {:>11} {:>13} {:>13} {:>10}", "INC", "ITERS", "STEP TIME",
+                              "TOTAL TIME", "TIME INC", "RESIDUAL", "ALLWK", "ALLIE", "WALL S"));
+  } else {
+    line(status_, fmt::format("{:>9} {:>13} {:>13} {:>12} {:>10} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>9} {:>9} {:>9} {:>10}",
+                              "INC", "STEP TIME", "TOTAL TIME", "TIME INC", "ELEMENT", "ALLKE", "ALLIE", "ALLAE", "ALLCW", "ALLWK",
+                              "ETOTAL", "ERROR %", "WALL S", "LEFT S", "ELEM/S"));
+  }
+}
+
+Status::Outlook Status::outlook(const Progress& progress) const {
+  const double duration = model_->steps[step_].duration();
+  const double elapsed = seconds() - step_begin_seconds_;
+  const double done = progress.step_time - step_begin_time_;
+  const auto increments = static_cast<double>(progress.increment - step_begin_increment_);
+  Outlook outlook;
+  outlook.fraction = progress.step_time / duration;
+  outlook.remaining = done > 0.0 ? std::max(0.0, elapsed * (duration - progress.step_time) / done) : 0.0;
+  outlook.elements_per_second = elapsed > 0.0 ? static_cast<double>(element_count_) * increments / elapsed : 0.0;
+  return outlook;
+}
+
+/// Change of ETOTAL since the step started (or was resumed), in percent of the energy now in the model.
+double Status::energy_error(const EnergyBalance& energies) const {
+  const double scale = std::max(energies.kinetic + std::abs(energies.internal), std::abs(energies.work));
+  return scale > 0.0 ? 100.0 * (energies.total - step_begin_energy_) / scale : 0.0;
+}
+
+void Status::static_line(const Progress& progress, double work, double internal) {
+  if (!root_) return;
+  line(status_, fmt::format("{:>6} {:>6} {:>13.6g} {:>13.6g} {:>13.6g} {:>11.3e} {:>13.6g} {:>13.6g} {:>10.2f}", progress.increment,
+                            progress.iterations, progress.step_time, progress.total_time, progress.time_increment,
+                            progress.largest_residual, work, internal, seconds()));
+}
+
+void Status::explicit_line(const Progress& progress, const EnergyBalance& energies) {
+  if (!root_) return;
+  const Outlook view = outlook(progress);
+  line(status_, fmt::format("{:>9} {:>13.6g} {:>13.6g} {:>12.5g} {:>10} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} "
+                            "{:>9.4f} {:>9.1f} {:>9.0f} {:>10.4g}",
+                            progress.increment, progress.step_time, progress.total_time, progress.time_increment,
+                            progress.critical_element, energies.kinetic, energies.internal, energies.hourglass, energies.contact,
+                            energies.work, energies.total, energy_error(energies), seconds(), view.remaining,
+                            view.elements_per_second));
+}
+
+void Status::show(const Progress& progress, bool now) {
+  if (!root_) return;
+  const Outlook view = outlook(progress);
+  const int twentieth = static_cast<int>(20.0 * view.fraction + 1e-9);
+  if (!terminal_ && !now && twentieth <= shown_twentieth_ && !progress.step_finished) return;
+  shown_twentieth_ = std::max(shown_twentieth_, twentieth);
+  const Step& step = model_->steps[step_];
+  std::string text = fmt::format("Step {} {}: {:3.0f} %, increment {}, time {:.6g} of {:g}, dt {:.4g}", step_ + 1, step.name,
+                                 100.0 * view.fraction, progress.increment, progress.step_time, step.duration(),
+                                 progress.time_increment);
+  if (is_static(step)) {
+    text += fmt::format(", {} iterations", progress.iterations);
+  } else {
+    text += fmt::format(", {:.3g} elements/s, {} left", view.elements_per_second, duration_text(view.remaining));
+  }
+  if (terminal_) {
+    std::printf("\r\033[K%s%s", text.c_str(), progress.step_finished ? "\n" : "");
+    line_open_ = !progress.step_finished;
+  } else {
+    std::printf("%s\n", text.c_str());
+  }
+  std::fflush(stdout);
+}
+
+void Status::log(const std::string& text) {
+  if (!root_) return;
+  line(log_, text);
+  if (text.find("warning:") == std::string::npos && text.find("error:") == std::string::npos) return;
+  std::printf("%s%s\n", line_open_ ? "\r\033[K" : "", text.c_str());
+  std::fflush(stdout);
+  line_open_ = false;
+}
+
+void Status::finish(const std::string& text) {
+  if (!root_) return;
+  if (line_open_) std::printf("\n");
+  line_open_ = false;
+  std::fflush(stdout);
+  line(status_, "\n" + text);
+  line(log_, text);
+}
+
+}  // namespace balocco
