@@ -11,7 +11,7 @@ namespace balocco {
 namespace {
 
 /// Velocity at the present instant: half an increment before the half-step value.
-Point velocity_at_end(const Analysis& analysis, std::int32_t node) {
+Point velocity_now(const Analysis& analysis, std::int32_t node) {
   const auto& state = analysis.current;
   Point velocity{};
   if (state.dynamic)
@@ -44,7 +44,7 @@ void displacement(const Analysis& analysis, std::span<double> values) {
 
 void velocity(const Analysis& analysis, std::span<double> values) {
   for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
-    std::ranges::copy(velocity_at_end(analysis, node), &values[3 * node]);
+    std::ranges::copy(velocity_now(analysis, node), &values[3 * node]);
 }
 
 void acceleration(const Analysis& analysis, std::span<double> values) {
@@ -76,10 +76,10 @@ void rotation(const Analysis& analysis, std::span<double> values) {
 
 void angular_velocity(const Analysis& analysis, std::span<double> values) {
   on_reference_nodes(analysis, values, [&](std::int32_t body) {
-    Point at_end = analysis.current.rigid_bodies[body].angular_velocity;
+    Point now = analysis.current.rigid_bodies[body].angular_velocity;
     for (int i = 0; i < 3; ++i)
-      at_end[i] -= 0.5 * analysis.current.time_increment * analysis.body_angular_acceleration[body][i];
-    return at_end;
+      now[i] -= 0.5 * analysis.current.time_increment * analysis.body_angular_acceleration[body][i];
+    return now;
   });
 }
 
@@ -210,7 +210,7 @@ EnergyBalance Analysis::energies() const {
   }
   for (std::int32_t node = 0; node < domain.size(); ++node) {
     if (!domain.owned[node]) continue;
-    const auto v = velocity_at_end(*this, node);
+    const auto v = velocity_now(*this, node);
     sums[kinetic].add(0.5 * nodal_mass[node] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     sums[work].add(current.nodal_work[node].external);
     sums[viscous].add(current.nodal_work[node].damping);
