@@ -39,7 +39,8 @@ struct Sheet {
     section.thickness = 0.5;
     section.area = 2.0;
     model.sections.push_back(section);
-    model.materials.push_back({.name = "SHEET", .density = 2e-3});
+    model.materials.emplace_back();
+    model.materials[0].density = 2e-3;
     set_law("elastic", {100.0, 0.3});
   }
 

@@ -236,14 +236,18 @@ TEST_P(Membrane, LocalDirectionsFollowTheOrientation) {
   Sheet by_default = rectangle(GetParam(), 2.0, 1.0);
   EXPECT_NEAR(axial_stiffness(by_default), 0.300, 1e-3);
   Sheet across = rectangle(GetParam(), 2.0, 1.0);
-  across.model.orientations.push_back({.rotation_axis = 2, .additional_rotation = 0.5 * M_PI});
+  Orientation turned;
+  turned.rotation_axis = 2;
+  turned.additional_rotation = 0.5 * M_PI;
+  across.model.orientations.push_back(turned);
   across.model.sections[0].orientation = 0;
   EXPECT_NEAR(axial_stiffness(across), 0.010, 1e-4);
   Sheet cylinder = rectangle(GetParam(), 2.0, 1.0);  // axis along y far below: its tangent is the x axis
-  cylinder.model.orientations.push_back({.system = Orientation::System::cylindrical,
-                                         .origin = {1.0, 0.0, -1e4},
-                                         .axes = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}},
-                                         .rotation_axis = 0});
+  Orientation cylindrical;
+  cylindrical.system = Orientation::System::cylindrical;
+  cylindrical.origin = {1.0, 0.0, -1e4};
+  cylindrical.axes = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
+  cylinder.model.orientations.push_back(cylindrical);
   cylinder.model.sections[0].orientation = 0;
   EXPECT_NEAR(axial_stiffness(cylinder), 0.300, 1e-3);
   Sheet standing = rectangle(GetParam(), 2.0, 1.0);
