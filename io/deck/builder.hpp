@@ -1,0 +1,152 @@
+// What handlers build with: the Model so far, names and ids with their scopes, and messages that are told once.
+#pragma once
+
+#include <deque>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "deck/diagnostics.hpp"
+#include "deck/step_draft.hpp"
+#include "deck/tokens.hpp"
+#include "model/model.hpp"
+
+namespace balocco::deck {
+
+/// Rows of a table of the Model by name. Names inside an instance are "INSTANCE.NAME".
+struct Names {
+  std::string kind;  // "node set", for messages
+  std::map<std::string, std::int32_t, std::less<>> rows;
+};
+
+/// Whose names and ids a block speaks of: the whole deck, or an instance, whose ids are shifted to be unique.
+struct Scope {
+  std::string prefix;  // "" or "INSTANCE."
+  std::optional<std::int64_t> node_offset, element_offset;  // set when the first node or element is defined
+  std::int64_t largest_node = 0, largest_element = 0;       // before the shift
+  std::array<Point, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // x -> rotation (x + translation - centre) + centre
+  Point translation{}, centre{};
+
+  Point place(const Point& local) const;
+  Point turn(const Point& direction) const;
+};
+
+/// *SECTION CONTROLS.
+struct SectionControls {
+  HourglassControl hourglass = HourglassControl::enhanced;
+  double hourglass_scale = 1.0;
+};
+
+/// A coordinate system for nodes: *SYSTEM or *NODE, SYSTEM=.
+struct NodeSystem {
+  Point origin{};
+  std::array<Point, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+};
+
+class Builder {
+ public:
+  explicit Builder(Diagnostics& diagnostics_to_fill) : diagnostics(diagnostics_to_fill) {}
+
+  Model model;
+  Diagnostics& diagnostics;
+
+  Names node_sets{"node set", {}}, element_sets{"element set", {}}, surfaces{"surface", {}}, materials{"material", {}},
+      orientations{"orientation", {}}, amplitudes{"amplitude", {}}, interactions{"surface interaction", {}};
+  std::map<std::string, SectionControls> section_controls;
+  std::map<std::string, std::vector<double>> time_points;
+  std::unordered_map<std::int64_t, ElementRef> element_of_id;
+  std::vector<std::array<std::int32_t, 4>> sorted_solid_faces;  // filled when a surface first asks for free faces
+  std::set<std::int32_t> unsorted_node_sets;
+  std::set<std::int32_t> absolute_amplitudes;  // *AMPLITUDE, VALUE=ABSOLUTE: magnitudes that refer to them become 1
+  NodeSystem node_system;
+  std::vector<std::pair<std::string, Location>> asked_element_variables;  // by name, to be checked against the elements
+  std::unordered_map<std::int32_t, std::int32_t> body_of_reference;  // reference node -> Model::rigid_bodies
+  std::vector<BoundaryCondition> initial_boundary;                   // *BOUNDARY before the first step
+
+  std::deque<Scope> scopes{1};  // the first is the whole deck's
+  Scope* scope = &scopes.front();
+  StepDraft draft;              // the step being read
+  std::set<const Block*> refused_steps;  // *STEP blocks in which something was refused
+  bool in_step = false;
+  bool first_pass = false;      // nodes and elements phases: what refers to things defined further down is put off
+  bool put_off = false;         // set by a handler that wants to be called again
+  bool mesh_incomplete = false;  // nodes, elements or sets were refused: what they leave undefined is not told again
+
+  void error(const Block& block, Location location, std::string text);
+  void warning(const Block& block, Location location, std::string text);
+  /// Marks everything that a refused block would have defined.
+  void poison(const Block& block);
+
+  /// Row of a name as the current scope sees it; nothing is told.
+  std::optional<std::int32_t> find(const Names& names, std::string_view name) const;
+  /// The same, and an error once per name that is not defined.
+  std::optional<std::int32_t> require(const Names& names, std::string_view name, const Block& block, Location location);
+  /// Registers a new name in the current scope; an error if it is taken. Returns the full name.
+  std::optional<std::string> define(Names& names, std::string_view name, std::int32_t row, const Block& block);
+
+  std::optional<std::int32_t> node(std::int64_t id) const;
+  std::optional<ElementRef> element(std::int64_t id) const;
+  std::optional<std::int32_t> require_node(std::int64_t id, const Block& block, Location location);
+
+  /// A node id, "INSTANCE.id" or node set. @return false if it is undefined (told).
+  bool nodes_of(std::string_view field, const Block& block, Location location, std::vector<std::int32_t>& rows);
+  bool elements_of(std::string_view field, const Block& block, Location location, std::vector<ElementRef>& elements);
+
+  /// Set of that name in the current scope, made if it does not exist yet.
+  std::int32_t node_set_row(std::string_view name);
+  std::int32_t element_set_row(std::string_view name);
+  /// Members, sorted and without repetition unless UNSORTED.
+  const std::vector<std::int32_t>& nodes_in(std::int32_t set);
+  const std::vector<ElementRef>& elements_in(std::int32_t set);
+  void add_to_node_set(std::int32_t set, std::int32_t row);
+  void add_to_element_set(std::int32_t set, ElementRef element);
+  void normalize_sets();
+
+  std::int64_t element_id(ElementRef element) const { return model.elements[element.table].id[element.row]; }
+  bool is_poisoned(std::string_view name) const { return poisoned_.contains(squeezed(name)); }
+
+ private:
+  static std::string squeezed(std::string_view name);
+  const Scope* scope_of_instance(std::string_view name) const;
+  void tell_undefined(const std::string& what, const std::string& cure, const Block& block, Location location);
+
+  std::set<std::string> poisoned_;
+  std::set<std::string> told_undefined_;
+  std::vector<bool> node_set_dirty_, element_set_dirty_;
+};
+
+/// One data line split into fields, with checked access. A field that cannot be read is told, and ok() turns false.
+class Row {
+ public:
+  Row(Builder& builder, const Block& block, const DataLine& line);
+  int size() const { return static_cast<int>(fields_.size()); }
+  bool has(int field) const { return field < size() && !fields_[field].empty(); }
+  std::string_view text(int field) const { return field < size() ? fields_[field] : std::string_view{}; }
+  std::string name(int field) const;
+  double real(int field, const char* what);
+  double real_or(int field, double otherwise, const char* what) { return has(field) ? real(field, what) : otherwise; }
+  std::int64_t integer(int field, const char* what);
+  std::int64_t integer_or(int field, std::int64_t otherwise, const char* what) {
+    return has(field) ? integer(field, what) : otherwise;
+  }
+  bool ok() const { return ok_; }
+  void error(std::string text);
+  /// Tells that there are more fields than the keyword knows.
+  void at_most(int fields);
+  Location location() const { return line_.location; }
+
+ private:
+  std::string missing_or_bad(int field, const char* what, const char* kind) const;
+
+  Builder& builder_;
+  const Block& block_;
+  const DataLine& line_;
+  std::vector<std::string_view> fields_;
+  bool ok_ = true;
+};
+
+}  // namespace balocco::deck

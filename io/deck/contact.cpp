@@ -1,0 +1,162 @@
+// *SURFACE INTERACTION *FRICTION *SURFACE BEHAVIOR *CONTACT PAIR *MODEL CHANGE.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/builder.hpp"
+#include "deck/register.hpp"
+#include "deck/text.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+Interaction& current(Builder& builder) { return builder.model.interactions.back(); }
+
+void read_interaction(Builder& builder, const Block& block) {
+  const auto full = builder.define(builder.interactions, block.value("NAME"),
+                                   static_cast<std::int32_t>(builder.model.interactions.size()), block);
+  for (const auto& line : block.lines) {  // Abaqus writes the out-of-plane thickness "1.," of two-dimensional models here
+    Row row(builder, block, line);
+    if (row.real_or(0, 1.0, "out-of-plane thickness") != 1.0) row.error("models are three-dimensional: remove the data line");
+  }
+  Interaction interaction;
+  interaction.name = full.value_or(block.value("NAME"));
+  interaction.location = block.location;
+  builder.model.interactions.push_back(std::move(interaction));
+}
+
+void read_friction(Builder& builder, const Block& block) {
+  if (block.lines.empty()) return builder.error(block, block.location, "the coefficient is missing; add a data line");
+  Row row(builder, block, block.lines[0]);
+  const double coefficient = row.real_or(0, 0.0, "friction coefficient");
+  row.at_most(1);
+  if (row.ok() && coefficient < 0.0) row.error(fmt::format("coefficient {} must not be negative; correct it", coefficient));
+  if (block.lines.size() > 1) builder.error(block, block.lines[1].location, "tables of friction are not supported; give one coefficient");
+  current(builder).friction = coefficient;
+  if (block.has("ELASTIC SLIP")) {
+    current(builder).elastic_slip = block.real("ELASTIC SLIP", 0.0);
+    if (!(*current(builder).elastic_slip > 0.0)) builder.error(block, block.location, "ELASTIC SLIP must be positive; correct it");
+  }
+}
+
+/// The enforcement is the procedure's own: penalty in explicit steps, augmented Lagrange in static ones.
+void read_surface_behavior(Builder& builder, const Block& block) {
+  if (block.lines.empty()) return;
+  if (!block.has("PENALTY")) {
+    return builder.error(block, block.lines[0].location, "data lines are known only with PENALTY (a scale factor of the stiffness); remove them");
+  }
+  Row row(builder, block, block.lines[0]);
+  const double scale = row.real_or(0, 1.0, "scale of the penalty stiffness");
+  row.at_most(1);
+  if (row.ok() && !(scale > 0.0)) row.error(fmt::format("scale {} must be positive; correct it", scale));
+  current(builder).penalty_scale = scale;
+}
+
+std::optional<std::array<std::int32_t, 2>> surfaces_of(Builder& builder, const Block& block, Row& row) {
+  row.at_most(2);
+  if (!row.has(0) || !row.has(1)) row.error("a pair needs two surfaces: slave, master");
+  if (!row.ok()) return std::nullopt;
+  const auto slave = builder.require(builder.surfaces, row.name(0), block, row.location());
+  const auto master = builder.require(builder.surfaces, row.name(1), block, row.location());
+  if (!slave || !master) return std::nullopt;
+  return std::array{*slave, *master};
+}
+
+std::int32_t find_pair(const Model& model, const std::array<std::int32_t, 2>& surfaces) {
+  const auto found = std::find_if(model.contact_pairs.begin(), model.contact_pairs.end(), [&](const ContactPair& pair) {
+    return pair.slave == surfaces[0] && pair.master == surfaces[1];
+  });
+  return found == model.contact_pairs.end() ? -1 : static_cast<std::int32_t>(found - model.contact_pairs.begin());
+}
+
+void activate(std::vector<std::int32_t>& active, std::int32_t pair) {
+  if (std::find(active.begin(), active.end(), pair) == active.end()) active.push_back(pair);
+  std::sort(active.begin(), active.end());
+}
+
+/// Adds the pair, or in a step takes up the one that is known (a deck may repeat its pairs for the explicit steps).
+void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t interaction) {
+  const auto surfaces = surfaces_of(builder, block, row);
+  if (!surfaces) return;
+  const auto& all = builder.model.surfaces;
+  const bool told = builder.is_poisoned(row.name(0)) || builder.is_poisoned(row.name(1));
+  if (all[(*surfaces)[1]].kind != Surface::Kind::analytical || all[(*surfaces)[0]].kind == Surface::Kind::analytical) {
+    if (!told) {
+      row.error(fmt::format("slave {} and master {} do not fit: the slave is made of element faces or nodes, the master is an analytical "
+                            "rigid surface; swap or replace them", row.name(0), row.name(1)));
+    }
+    return;
+  }
+  std::int32_t pair = find_pair(builder.model, *surfaces);
+  if (pair >= 0 && !builder.in_step) return row.error("this pair is given twice; remove one");
+  if (pair >= 0 && builder.model.contact_pairs[pair].interaction != interaction) {
+    return row.error("this pair already has another interaction; a pair keeps its interaction in all steps");
+  }
+  if (pair < 0) {
+    pair = static_cast<std::int32_t>(builder.model.contact_pairs.size());
+    const auto step = builder.in_step ? static_cast<std::int32_t>(builder.model.steps.size()) - 1 : 0;
+    builder.model.contact_pairs.push_back({(*surfaces)[0], (*surfaces)[1], interaction, step, row.location()});
+  }
+  if (builder.in_step) activate(builder.model.steps.back().active_contact_pairs, pair);
+}
+
+void read_contact_pair(Builder& builder, const Block& block) {
+  const auto interaction = builder.require(builder.interactions, block.value("INTERACTION"), block, block.location);
+  if (block.lines.empty()) return builder.error(block, block.location, "the surfaces are missing; add a line slave, master");
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    if (block.value("OP") == "DELETE") {
+      const auto surfaces = surfaces_of(builder, block, row);
+      const std::int32_t pair = surfaces ? find_pair(builder.model, *surfaces) : -1;
+      if (surfaces && pair < 0) row.error("no such pair to delete; correct the names");
+      if (pair >= 0) std::erase(builder.model.steps.back().active_contact_pairs, pair);
+    } else if (interaction) {
+      add_pair(builder, block, row, *interaction);
+    }
+  }
+}
+
+void read_contact_pair_in_model(Builder& builder, const Block& block) {
+  if (block.value("OP") == "DELETE") return builder.error(block, block.location, "OP=DELETE belongs inside a *STEP; move it there");
+  read_contact_pair(builder, block);
+}
+
+void read_pair(Builder& builder, const Block& block) {
+  builder.in_step ? read_contact_pair(builder, block) : read_contact_pair_in_model(builder, block);
+}
+
+void read_model_change(Builder& builder, const Block& block) {
+  if (block.has("ADD") == block.has("REMOVE")) return builder.error(block, block.location, "give either ADD or REMOVE");
+  auto& active = builder.model.steps.back().active_contact_pairs;
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    const auto surfaces = surfaces_of(builder, block, row);
+    if (!surfaces) continue;
+    const std::int32_t pair = find_pair(builder.model, *surfaces);
+    if (pair < 0) {
+      row.error("there is no contact pair of these surfaces; declare it under *CONTACT PAIR");
+    } else if (block.has("ADD")) {
+      activate(active, pair);
+    } else {
+      std::erase(active, pair);
+    }
+  }
+}
+
+const RegisterKeyword interaction{{"SURFACE INTERACTION", Phase::definitions, Place::anywhere, {required(name("NAME"))}, read_interaction}};
+const RegisterKeyword friction{{"FRICTION", Phase::definitions, Place::anywhere, {real("ELASTIC SLIP")}, read_friction,
+                                "SURFACE INTERACTION"}};
+const RegisterKeyword behavior{{"SURFACE BEHAVIOR", Phase::definitions, Place::anywhere,
+                                {choice("PRESSURE-OVERCLOSURE", {"HARD"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
+                                read_surface_behavior, "SURFACE INTERACTION"}};
+const RegisterKeyword pair{{"CONTACT PAIR", Phase::history, Place::anywhere,
+                            {required(name("INTERACTION")), choice("TYPE", {"NODE TO SURFACE"}),
+                             choice("MECHANICAL CONSTRAINT", {"PENALTY"}), choice("OP", {"ADD", "DELETE"})},
+                            read_pair}};
+const RegisterKeyword change{{"MODEL CHANGE", Phase::history, Place::step,
+                              {required(choice("TYPE", {"CONTACT PAIR"})), flag("ADD"), flag("REMOVE")}, read_model_change}};
+
+}  // namespace
+
+}  // namespace balocco::deck

@@ -1,0 +1,114 @@
+#include "deck/register.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "deck/text.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+using Kind = ParameterRule::Kind;
+
+// Function-local so that registrations in other files find it whatever the order of initialisation.
+std::map<std::string, KeywordRule, std::less<>>& table() {
+  static std::map<std::string, KeywordRule, std::less<>> rules;
+  return rules;
+}
+
+/// What is wrong with a value, or "".
+std::string trouble_with_value(const ParameterRule& rule, const Parameter& parameter) {
+  const bool optional = rule.kind == Kind::optional_real || rule.kind == Kind::optional_choice;
+  if (rule.kind == Kind::flag) {
+    return parameter.has_value ? fmt::format("{} takes no value; leave out '={}'", rule.name, parameter.raw) : "";
+  }
+  if (!parameter.has_value || parameter.value.empty()) {
+    if (optional && !parameter.has_value) return "";
+    return fmt::format("{} needs a value; write {}=...", rule.name, rule.name);
+  }
+  if ((rule.kind == Kind::real || rule.kind == Kind::optional_real) && !parse_real(parameter.value)) {
+    return fmt::format("{}={} is not a number; write a real number", rule.name, parameter.raw);
+  }
+  if (rule.kind == Kind::integer && !parse_integer(parameter.value)) {
+    return fmt::format("{}={} is not a whole number; write an integer", rule.name, parameter.raw);
+  }
+  if (rule.kind == Kind::choice || rule.kind == Kind::optional_choice) {
+    const auto same = [&](const std::string& value) { return squeeze(value) == squeeze(parameter.value); };
+    if (std::none_of(rule.choices.begin(), rule.choices.end(), same)) {
+      return fmt::format("{}={} is not supported{}{}", rule.name, parameter.raw, did_you_mean(parameter.value, rule.choices),
+                         "; allowed: " + join(rule.choices));
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+ParameterRule flag(std::string name) { return {Kind::flag, std::move(name), {}, false}; }
+ParameterRule name(std::string name) { return {Kind::name, std::move(name), {}, false}; }
+ParameterRule text(std::string name) { return {Kind::text, std::move(name), {}, false}; }
+ParameterRule real(std::string name) { return {Kind::real, std::move(name), {}, false}; }
+ParameterRule integer(std::string name) { return {Kind::integer, std::move(name), {}, false}; }
+ParameterRule choice(std::string name, std::vector<std::string> choices) {
+  return {Kind::choice, std::move(name), std::move(choices), false};
+}
+ParameterRule optional_real(std::string name) { return {Kind::optional_real, std::move(name), {}, false}; }
+ParameterRule optional_choice(std::string name, std::vector<std::string> choices) {
+  return {Kind::optional_choice, std::move(name), std::move(choices), false};
+}
+ParameterRule required(ParameterRule rule) {
+  rule.required = true;
+  return rule;
+}
+
+RegisterKeyword::RegisterKeyword(KeywordRule rule) {
+  auto key = squeeze(rule.keyword);
+  table().emplace(std::move(key), std::move(rule));
+}
+
+const KeywordRule* find_keyword(std::string_view squeezed) {
+  const auto found = table().find(squeezed);
+  return found == table().end() ? nullptr : &found->second;
+}
+
+std::vector<std::string> keywords() {
+  // These two are the business of the tokenizer and are not registered.
+  std::vector<std::string> result{"INCLUDE", "PARAMETER"};
+  for (const auto& [key, rule] : table()) result.push_back(rule.keyword);
+  return result;
+}
+
+bool check_parameters(const KeywordRule& rule, const Block& block, Diagnostics& diagnostics) {
+  if (rule.any_parameter) return true;
+  bool good = true;
+  const auto tell = [&](std::string text) {
+    diagnostics.error(block.location, rule.keyword, std::move(text));
+    good = false;
+  };
+  std::vector<std::string> known;
+  for (const auto& allowed : rule.parameters) known.push_back(allowed.name);
+  for (const auto& parameter : block.parameters) {
+    const auto allowed = std::find_if(rule.parameters.begin(), rule.parameters.end(),
+                                      [&](const ParameterRule& r) { return squeeze(r.name) == parameter.name; });
+    if (allowed == rule.parameters.end()) {
+      tell(fmt::format("parameter {} is unknown or not supported{}; {}", upper(parameter.written),
+                       did_you_mean(parameter.written, known),
+                       known.empty() ? "this keyword takes none" : "supported: " + join(known)));
+    } else if (const auto trouble = trouble_with_value(*allowed, parameter); !trouble.empty()) {
+      tell(trouble);
+    } else if (block.find(parameter.name) != &parameter) {
+      tell(fmt::format("parameter {} is given twice; keep one", allowed->name));
+    }
+  }
+  for (const auto& needed : rule.parameters) {
+    if (needed.required && !block.has(needed.name)) {
+      tell(fmt::format("parameter {0} is missing; add {0}{1}", needed.name, needed.kind == Kind::flag ? "" : "=..."));
+    }
+  }
+  return good;
+}
+
+}  // namespace balocco::deck

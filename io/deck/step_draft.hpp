@@ -1,0 +1,31 @@
+// What is known of the step being read, beside the Step itself.
+#pragma once
+
+#include <cstdint>
+#include <set>
+#include <unordered_map>
+#include <utility>
+
+#include "model/model.hpp"
+
+namespace balocco::deck {
+
+struct StepDraft {
+  Location location;
+  bool has_procedure = false;
+  bool faulty = false;  // a block of it was refused: what that leaves missing is not told
+  bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false;  // OP=NEW seen
+  std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary
+  std::unordered_map<std::int64_t, std::size_t> concentrated_of;  // node * 6 + dof -> row of Step::concentrated_loads
+  bool field_replaced = false, history_replaced = false;          // an *OUTPUT of this step took the place of earlier ones
+  enum class Output { none, field, history } output = Output::none;  // what the latest *OUTPUT asked for
+
+  /// True if a load was said (again) in this step.
+  template <class Load>
+  bool said_here(const Load& load) const {
+    return said.contains({load.file, load.line});
+  }
+  std::set<std::pair<std::int32_t, std::int32_t>> said;  // places of the data lines of loads read in this step
+};
+
+}  // namespace balocco::deck

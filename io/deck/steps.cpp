@@ -1,0 +1,248 @@
+// *STEP *END STEP *STATIC *DYNAMIC *BULK VISCOSITY *CONTROLS *RESTART.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/builder.hpp"
+#include "deck/register.hpp"
+#include "deck/step_draft.hpp"
+#include "deck/text.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+Step& current(Builder& builder) { return builder.model.steps.back(); }
+
+/// Magnitude that a load has reached at the end of a step.
+template <class Load>
+double reached(const Model& model, const Load& load, double step_time, double total_time) {
+  if (load.amplitude < 0) return load.magnitude;
+  const Amplitude& amplitude = model.amplitudes[load.amplitude];
+  return load.magnitude * amplitude.value(amplitude.total_time ? total_time : step_time);
+}
+
+/// What a step takes over from the one before.
+void inherit(Builder& builder, Step& step) {
+  const Model& model = builder.model;
+  if (model.steps.empty()) {
+    step.boundary = builder.initial_boundary;
+    for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair) {
+      step.active_contact_pairs.push_back(static_cast<std::int32_t>(pair));
+    }
+    return;
+  }
+  const Step& before = model.steps.back();
+  step.static_procedure.nonlinear_geometry =
+      before.static_procedure.nonlinear_geometry || before.procedure == Step::Procedure::explicit_dynamics;
+  step.controls = before.controls;
+  step.boundary = before.boundary;
+  for (auto& condition : step.boundary) condition.propagated = true;
+  step.concentrated_loads = before.concentrated_loads;
+  step.pressures = before.pressures;
+  step.gravity = before.gravity;
+  step.active_contact_pairs = before.active_contact_pairs;
+  step.field_outputs = before.field_outputs;
+  step.history_outputs = before.history_outputs;
+  step.checkpoint_frequency = before.checkpoint_frequency;
+  step.checkpoint_number_interval = before.checkpoint_number_interval;
+  double total = 0.0;
+  for (const auto& done : model.steps) total += done.duration();
+  const auto settle = [&](auto& loads) {
+    for (auto& load : loads) load.previous = reached(model, load, before.duration(), total);
+  };
+  settle(step.concentrated_loads);
+  settle(step.pressures);
+  settle(step.gravity);
+}
+
+void index_nodes(Builder& builder) {
+  const Step& step = current(builder);
+  for (std::size_t row = 0; row < step.boundary.size(); ++row) {
+    builder.draft.boundary_of[std::int64_t{step.boundary[row].node} * 6 + step.boundary[row].dof] = row;
+  }
+  for (std::size_t row = 0; row < step.concentrated_loads.size(); ++row) {
+    const auto& load = step.concentrated_loads[row];
+    builder.draft.concentrated_of[std::int64_t{load.node} * 6 + load.dof] = row;
+  }
+}
+
+void begin_step(Builder& builder, const Block& block) {
+  builder.draft = {};
+  builder.draft.location = block.location;
+  builder.draft.faulty = builder.refused_steps.contains(&block);
+  Step step;
+  inherit(builder, step);
+  step.name = block.value("NAME", fmt::format("STEP-{}", builder.model.steps.size() + 1));
+  for (const auto& other : builder.model.steps) {
+    if (other.name == step.name) builder.error(block, block.location, fmt::format("two steps are named {}; rename one", step.name));
+  }
+  if (block.has("NLGEOM")) {
+    const bool asked = block.value("NLGEOM", "YES") == "YES";
+    if (!asked && step.static_procedure.nonlinear_geometry) {
+      builder.error(block, block.location, "NLGEOM=NO cannot follow a step with large displacements; remove it");
+    }
+    step.static_procedure.nonlinear_geometry = asked;
+  }
+  step.static_procedure.maximum_increments = block.integer("INC", 100);
+  if (step.static_procedure.maximum_increments < 1) builder.error(block, block.location, "INC must be positive; correct it");
+  if (builder.model.heading.empty() && builder.model.steps.empty() && !block.lines.empty()) {
+    builder.model.heading = block.lines[0].text;  // a subheading, as CalculiX decks have it
+  }
+  builder.model.steps.push_back(std::move(step));
+  index_nodes(builder);
+}
+
+void end_step(Builder& builder, const Block& block) {
+  if (!builder.draft.has_procedure && !builder.draft.faulty) {
+    builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC or *DYNAMIC, EXPLICIT");
+  }
+}
+
+bool first_procedure(Builder& builder, const Block& block) {
+  if (builder.draft.has_procedure) builder.error(block, block.location, "the step already has a procedure; remove one");
+  const bool first = !builder.draft.has_procedure;
+  builder.draft.has_procedure = true;
+  return first;
+}
+
+void read_static(Builder& builder, const Block& block) {
+  if (!first_procedure(builder, block)) return;
+  Step& step = current(builder);
+  step.procedure = Step::Procedure::static_analysis;
+  auto& procedure = step.static_procedure;
+  procedure.direct = block.has("DIRECT");
+  procedure.stabilize = block.has("STABILIZE");
+  procedure.dissipated_energy_fraction = block.real("STABILIZE", procedure.dissipated_energy_fraction);
+  double initial = 0.0, duration = 0.0, minimum = 0.0, maximum = 0.0;
+  if (!block.lines.empty()) {
+    Row row(builder, block, block.lines[0]);
+    initial = row.real_or(0, 0.0, "initial increment");
+    duration = row.real_or(1, 0.0, "time period");
+    minimum = row.real_or(2, 0.0, "smallest increment");
+    maximum = row.real_or(3, 0.0, "largest increment");
+    row.at_most(4);
+    if (row.ok() && (initial < 0.0 || duration < 0.0 || minimum < 0.0 || maximum < 0.0)) {
+      row.error("increments and period must not be negative; correct the line");
+    }
+    if (!row.ok()) return;
+  }
+  // Abaqus's defaults: period 1, first increment the period, smallest 1e-5 of the period or the first increment if less.
+  procedure.duration = duration > 0.0 ? duration : 1.0;
+  procedure.initial_increment = initial > 0.0 ? initial : procedure.duration;
+  procedure.minimum_increment = minimum > 0.0 ? minimum : std::min(procedure.initial_increment, 1e-5 * procedure.duration);
+  procedure.maximum_increment = maximum > 0.0 ? maximum : procedure.duration;
+  if (procedure.initial_increment > procedure.duration) {
+    builder.error(block, block.lines[0].location, fmt::format("the initial increment {} exceeds the time period {}; make it smaller",
+                                                              procedure.initial_increment, procedure.duration));
+  }
+}
+
+void read_dynamic(Builder& builder, const Block& block) {
+  if (!first_procedure(builder, block)) return;
+  Step& step = current(builder);
+  step.procedure = Step::Procedure::explicit_dynamics;
+  step.static_procedure = {};
+  step.static_procedure.nonlinear_geometry = true;
+  auto& procedure = step.explicit_procedure;
+  procedure.scale_factor = block.real("SCALE FACTOR", 1.0);
+  if (!(procedure.scale_factor > 0.0 && procedure.scale_factor <= 1.0)) {
+    builder.error(block, block.location, "SCALE FACTOR must lie between 0 and 1; correct it");
+  }
+  if (block.lines.empty()) return builder.error(block, block.location, "the time period is missing; add a line: , period");
+  Row row(builder, block, block.lines[0]);
+  const double first = row.real_or(0, 0.0, "time increment");
+  procedure.duration = row.real(1, "time period");
+  row.at_most(2);
+  if (row.ok() && !(procedure.duration > 0.0)) row.error(fmt::format("time period {} must be positive; correct it", procedure.duration));
+  if (!row.ok()) return;
+  if (block.has("DIRECT USER CONTROL") || block.has("DIRECT")) {
+    if (!(first > 0.0)) return row.error("DIRECT USER CONTROL needs the increment in field 1; add it");
+    procedure.fixed_increment = first;
+  } else if (row.has(0) && first > 0.0) {
+    builder.warning(block, row.location(), "field 1 (the increment) has a meaning only with DIRECT USER CONTROL; the stable increment is "
+                                           "estimated");
+  }
+}
+
+void read_bulk_viscosity(Builder& builder, const Block& block) {
+  auto& procedure = current(builder).explicit_procedure;
+  if (block.lines.empty()) return;
+  Row row(builder, block, block.lines[0]);
+  procedure.linear_bulk_viscosity = row.real_or(0, procedure.linear_bulk_viscosity, "linear coefficient");
+  procedure.quadratic_bulk_viscosity = row.real_or(1, procedure.quadratic_bulk_viscosity, "quadratic coefficient");
+  row.at_most(2);
+  if (row.ok() && (procedure.linear_bulk_viscosity < 0.0 || procedure.quadratic_bulk_viscosity < 0.0)) {
+    row.error("the coefficients must not be negative; correct them");
+  }
+}
+
+/// Fields that a *CONTROLS line has but Balocco does not honour must be empty.
+void only_fields(Row& row, std::initializer_list<int> known) {
+  for (int field = 0; field < row.size(); ++field) {
+    if (row.has(field) && std::find(known.begin(), known.end(), field) == known.end()) {
+      row.error(fmt::format("field {} ('{}') is not supported; leave it empty", field + 1, row.text(field)));
+      return;
+    }
+  }
+}
+
+void read_controls(Builder& builder, const Block& block) {
+  auto& controls = current(builder).controls;
+  if (block.has("RESET")) controls = {};
+  if (block.lines.empty()) return;
+  Row row(builder, block, block.lines[0]);
+  const std::string parameters = squeeze(block.value("PARAMETERS"));
+  if (parameters == "FIELD") {  // R_n, C_n
+    only_fields(row, {0, 1});
+    controls.residual_tolerance = row.real_or(0, controls.residual_tolerance, "residual tolerance");
+    controls.correction_tolerance = row.real_or(1, controls.correction_tolerance, "correction tolerance");
+    if (row.ok() && !(controls.residual_tolerance > 0.0 && controls.correction_tolerance > 0.0)) row.error("tolerances must be positive; correct them");
+  } else if (parameters == "TIMEINCREMENTATION") {  // I_0, I_R, I_P, I_C: the fourth is the limit of iterations
+    only_fields(row, {3});
+    controls.maximum_iterations = static_cast<std::int32_t>(row.integer_or(3, controls.maximum_iterations, "most iterations"));
+    if (row.ok() && controls.maximum_iterations < 1) row.error("the number of iterations must be positive; correct it");
+  } else {  // N_ls: 0 switches the line search off
+    only_fields(row, {0});
+    controls.line_search = row.integer_or(0, 0, "most line-search iterations") > 0;
+  }
+  if (block.lines.size() > 1) builder.error(block, block.lines[1].location, "further lines of *CONTROLS are not supported; remove them");
+}
+
+void read_restart(Builder& builder, const Block& block) {
+  Step& step = current(builder);
+  if (block.has("FREQUENCY") && block.has("NUMBER INTERVAL")) {
+    return builder.error(block, block.location, "give FREQUENCY or NUMBER INTERVAL, not both");
+  }
+  step.checkpoint_frequency.reset();
+  step.checkpoint_number_interval.reset();
+  const std::int32_t frequency = block.integer("FREQUENCY", 1), intervals = block.integer("NUMBER INTERVAL", 1);
+  if (frequency < 0 || intervals < 0) return builder.error(block, block.location, "FREQUENCY and NUMBER INTERVAL must not be negative; correct it");
+  if (block.has("NUMBER INTERVAL")) {
+    if (intervals > 0) step.checkpoint_number_interval = intervals;
+  } else if (frequency > 0) {  // FREQUENCY=0: none
+    step.checkpoint_frequency = frequency;
+  }
+}
+
+const RegisterKeyword step{{"STEP", Phase::history, Place::model,
+                            {name("NAME"), optional_choice("NLGEOM", {"YES", "NO"}), integer("INC"), choice("UNSYMM", {"YES"})},
+                            begin_step}};
+const RegisterKeyword end{{"END STEP", Phase::history, Place::step, {}, end_step}};
+const RegisterKeyword static_analysis{{"STATIC", Phase::history, Place::step, {flag("DIRECT"), optional_real("STABILIZE")}, read_static}};
+const RegisterKeyword dynamic{{"DYNAMIC", Phase::history, Place::step,
+                               {required(flag("EXPLICIT")), flag("DIRECT USER CONTROL"), flag("DIRECT"), flag("ELEMENT BY ELEMENT"),
+                                real("SCALE FACTOR")},
+                               read_dynamic}};
+const RegisterKeyword bulk{{"BULK VISCOSITY", Phase::history, Place::step, {}, read_bulk_viscosity}};
+const RegisterKeyword controls{{"CONTROLS", Phase::history, Place::step,
+                                {choice("PARAMETERS", {"FIELD", "TIME INCREMENTATION", "LINE SEARCH"}), flag("RESET")},
+                                read_controls}};
+// OVERLAY is how checkpoints are always kept: the last whole one.
+const RegisterKeyword restart{{"RESTART", Phase::history, Place::step,
+                               {required(flag("WRITE")), integer("FREQUENCY"), integer("NUMBER INTERVAL"), flag("OVERLAY")},
+                               read_restart}};
+
+}  // namespace
+
+}  // namespace balocco::deck

@@ -1,0 +1,239 @@
+#include "deck/tokens.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <stdexcept>
+
+#include "deck/expression.hpp"
+#include "deck/text.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+/// Lines of one text, without line ends of either kind.
+class LineCursor {
+ public:
+  explicit LineCursor(std::string_view text) : rest_(text) {}
+
+  bool next(std::string_view& line) {
+    if (rest_.empty()) return false;
+    const auto end = rest_.find('\n');
+    line = trim(rest_.substr(0, end));
+    rest_ = end == std::string_view::npos ? std::string_view{} : rest_.substr(end + 1);
+    ++number_;
+    return true;
+  }
+
+  std::int32_t number() const { return number_; }
+
+ private:
+  std::string_view rest_;
+  std::int32_t number_ = 0;
+};
+
+bool is_comment(std::string_view line) { return line.starts_with("**"); }
+
+class Tokenizer {
+ public:
+  Tokenizer(const FileLoader& loader, Diagnostics& diagnostics) : loader_(loader), diagnostics_(diagnostics) {}
+
+  void read(const std::string& path, Location included_from, std::string_view keyword);
+  Tokens take() { return std::move(tokens_); }
+
+ private:
+  void read_lines(std::int32_t file, std::string_view text);
+  void keyword_line(std::string line, Location location);
+  void data_line(std::string_view line, Location location);
+  void parameter_line(std::string_view line, Location location);
+  std::string_view substitute(std::string_view line, Location location);
+  void open_block(const std::string& line, Location location);
+
+  const FileLoader& loader_;
+  Diagnostics& diagnostics_;
+  Tokens tokens_;
+  std::vector<std::string> chain_;  // files being read, outermost first
+  ParameterValues parameters_;
+  bool inside_parameter_ = false, told_stray_data_ = false;
+};
+
+void Tokenizer::read(const std::string& path, Location included_from, std::string_view keyword) {
+  const std::string normal = std::filesystem::path(path).lexically_normal().string();
+  if (std::find(chain_.begin(), chain_.end(), normal) != chain_.end()) {
+    std::string loop;
+    for (const auto& file : chain_) loop += file + " -> ";
+    diagnostics_.error(included_from, keyword, fmt::format("file {} includes itself ({}); break the loop", path, loop + normal));
+    return;
+  }
+  auto text = loader_(path);
+  if (!text) {
+    if (included_from.file < 0) tokens_.files.push_back(path);
+    diagnostics_.error(included_from, keyword, fmt::format("cannot read file {}; check its name and folder (names count from "
+                                                           "the folder of the file that asks for it)", path));
+    return;
+  }
+  tokens_.texts.push_back(std::move(*text));
+  const std::string& stored = tokens_.texts.back();
+  const auto file = static_cast<std::int32_t>(tokens_.files.size());
+  tokens_.files.push_back(path);
+  if (stored.find('\0') != std::string::npos) {
+    diagnostics_.error({file, 1}, "", "this is not a text file (it holds zero bytes); give a deck in Abaqus keyword syntax");
+    return;
+  }
+  chain_.push_back(normal);
+  read_lines(file, stored);
+  chain_.pop_back();
+}
+
+void Tokenizer::read_lines(std::int32_t file, std::string_view text) {
+  LineCursor cursor(text);
+  std::string_view line;
+  while (cursor.next(line)) {
+    if (line.empty() || is_comment(line)) continue;
+    const Location location{file, cursor.number()};
+    if (line.front() != '*') {
+      data_line(line, location);
+      continue;
+    }
+    std::string whole(line);
+    while (whole.back() == ',' && cursor.next(line)) {
+      if (is_comment(line)) continue;
+      whole += line;
+      if (line.empty()) break;
+    }
+    keyword_line(std::move(whole), location);
+  }
+}
+
+void Tokenizer::keyword_line(std::string line, Location location) {
+  inside_parameter_ = squeeze(line) == "*PARAMETER";
+  if (inside_parameter_) return;
+  open_block(std::string(substitute(line, location)), location);
+  const Block& block = tokens_.blocks.back();
+  const bool include = block.keyword == "INCLUDE";
+  if (const Parameter* input = block.find("INPUT"); input != nullptr && input->has_value) {
+    const auto folder = std::filesystem::path(tokens_.files[location.file]).parent_path();
+    const std::string path = std::filesystem::path(input->raw).is_absolute() ? input->raw : (folder / input->raw).string();
+    if (include) tokens_.blocks.pop_back();
+    read(path, location, include ? "INCLUDE" : std::string(block.written));
+  } else if (include) {
+    diagnostics_.error(location, "INCLUDE", "the file is not named; write *INCLUDE, INPUT=FILE");
+    tokens_.blocks.pop_back();
+  }
+}
+
+void Tokenizer::open_block(const std::string& line, Location location) {
+  std::vector<std::string_view> fields;
+  split(std::string_view(line).substr(1), fields);
+  Block block;
+  block.location = location;
+  if (!fields.empty()) {
+    block.keyword = squeeze(fields[0]);
+    block.written = upper(fields[0]);
+  }
+  for (std::size_t i = 1; i < fields.size(); ++i) {
+    if (fields[i].empty()) continue;
+    Parameter parameter;
+    const auto equals = fields[i].find('=');
+    parameter.written = trim(fields[i].substr(0, equals));
+    parameter.name = squeeze(parameter.written);
+    if (equals != std::string_view::npos) {
+      parameter.has_value = true;
+      parameter.raw = trim(fields[i].substr(equals + 1));
+      std::erase(parameter.raw, '"');
+      parameter.value = upper(parameter.raw);
+    }
+    block.parameters.push_back(std::move(parameter));
+  }
+  tokens_.blocks.push_back(std::move(block));
+}
+
+void Tokenizer::data_line(std::string_view line, Location location) {
+  if (inside_parameter_) {
+    parameter_line(line, location);
+  } else if (!tokens_.blocks.empty()) {
+    tokens_.blocks.back().lines.push_back({substitute(line, location), location});
+  } else if (!told_stray_data_) {
+    told_stray_data_ = true;
+    diagnostics_.error(location, "", "data before the first keyword; a deck starts with a keyword line such as *HEADING");
+  }
+}
+
+void Tokenizer::parameter_line(std::string_view line, Location location) {
+  line = trim(line.substr(0, line.find('#')));  // Abaqus takes the rest for a remark, as Python does
+  if (line.empty()) return;
+  const auto equals = line.find('=');
+  if (equals == std::string_view::npos) {
+    diagnostics_.error(location, "PARAMETER", fmt::format("'{}' is no assignment; write NAME = EXPRESSION", line));
+    return;
+  }
+  const std::string name = squeeze(line.substr(0, equals));
+  try {
+    parameters_[name] = evaluate(line.substr(equals + 1), parameters_);
+  } catch (const std::invalid_argument& trouble) {
+    parameters_[name] = 0.0;  // told once, here
+    diagnostics_.error(location, "PARAMETER", fmt::format("the expression of {} cannot be evaluated: {}; allowed are numbers, "
+                                                          "parameters, + - * / **, parentheses and SQRT, SIN, COS, TAN, EXP, "
+                                                          "LOG, ABS", name, trouble.what()));
+  }
+}
+
+std::string_view Tokenizer::substitute(std::string_view line, Location location) {
+  auto open = line.find('<');
+  if (open == std::string_view::npos) return line;
+  std::string result;
+  while (open != std::string_view::npos) {
+    const auto close = line.find('>', open);
+    if (close == std::string_view::npos) break;
+    const std::string name = squeeze(line.substr(open + 1, close - open - 1));
+    const auto found = parameters_.find(name);
+    if (found == parameters_.end()) {
+      std::vector<std::string> names;
+      for (const auto& [known, value] : parameters_) names.push_back(known);
+      diagnostics_.error(location, "PARAMETER", fmt::format("<{}> has no value{}; assign it under *PARAMETER above this line",
+                                                            name, did_you_mean(name, names)));
+      parameters_[name] = 0.0;
+    }
+    result += line.substr(0, open);
+    result += fmt::format("{}", parameters_[name]);
+    line.remove_prefix(close + 1);
+    open = line.find('<');
+  }
+  result += line;
+  tokens_.texts.push_back(std::move(result));
+  return tokens_.texts.back();
+}
+
+}  // namespace
+
+const Parameter* Block::find(std::string_view name) const {
+  const std::string squeezed = squeeze(name);
+  const auto found = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == squeezed; });
+  return found == parameters.end() ? nullptr : &*found;
+}
+
+std::string Block::value(std::string_view name, std::string otherwise) const {
+  const Parameter* parameter = find(name);
+  return parameter != nullptr && parameter->has_value ? parameter->value : std::move(otherwise);
+}
+
+double Block::real(std::string_view name, double otherwise) const {
+  const Parameter* parameter = find(name);
+  return parameter != nullptr && parameter->has_value ? parse_real(parameter->value).value_or(otherwise) : otherwise;
+}
+
+std::int32_t Block::integer(std::string_view name, std::int32_t otherwise) const {
+  const Parameter* parameter = find(name);
+  if (parameter == nullptr || !parameter->has_value) return otherwise;
+  return static_cast<std::int32_t>(parse_integer(parameter->value).value_or(otherwise));
+}
+
+Tokens tokenize(const std::string& path, const FileLoader& loader, Diagnostics& diagnostics) {
+  Tokenizer tokenizer(loader, diagnostics);
+  tokenizer.read(path, {}, "");
+  return tokenizer.take();
+}
+
+}  // namespace balocco::deck

@@ -1,0 +1,103 @@
+#include "deck_reader.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+#include "deck/builder.hpp"
+#include "deck/digest.hpp"
+#include "deck/groups.hpp"
+#include "deck/schedule.hpp"
+#include "deck/tokens.hpp"
+#include "model/check.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+using namespace deck;
+
+void run_task(Builder& builder, const Task& task) {
+  builder.scope = task.scope;
+  builder.in_step = task.in_step;
+  task.rule->handler(builder, *task.block);
+}
+
+void run_phase(Builder& builder, const std::vector<Task>& tasks, Phase phase) {
+  for (const auto& task : tasks) {
+    if (task.rule->phase == phase) run_task(builder, task);
+  }
+}
+
+/// Nodes and elements. Sets may list what is defined further down: they are tried again as long as that helps.
+void build_mesh(Builder& builder, const std::vector<Task>& tasks) {
+  std::vector<const Task*> waiting;
+  const auto attempt = [&](const Task& task) {
+    builder.put_off = false;
+    run_task(builder, task);
+    if (builder.put_off) waiting.push_back(&task);
+  };
+  builder.first_pass = true;
+  for (const Phase phase : {Phase::nodes, Phase::elements}) {
+    for (const auto& task : tasks) {
+      if (task.rule->phase == phase) attempt(task);
+    }
+  }
+  for (std::size_t before = waiting.size() + 1; waiting.size() < before && !waiting.empty();) {
+    before = waiting.size();
+    const auto again = std::move(waiting);
+    waiting.clear();
+    for (const Task* task : again) attempt(*task);
+  }
+  builder.first_pass = false;
+  for (const Task* task : waiting) run_task(builder, *task);
+  builder.normalize_sets();
+}
+
+void throw_if_wrong(const Diagnostics& diagnostics, const std::vector<std::string>& files) {
+  if (diagnostics.number_of_errors() > 0) throw InputError(diagnostics.errors(files));
+}
+
+}  // namespace
+
+FileLoader file_loader() {
+  return [](const std::string& path) -> std::optional<std::string> {
+    std::ifstream file(path, std::ios::binary);
+    if (!file || std::filesystem::is_directory(path)) return std::nullopt;
+    std::ostringstream text;
+    text << file.rdbuf();
+    return std::move(text).str();
+  };
+}
+
+ReadResult read_deck(const std::string& path, const FileLoader& loader, const ReadOptions& options) {
+  register_material_laws();
+  Diagnostics diagnostics;
+  const Tokens tokens = tokenize(path, loader, diagnostics);
+  Builder builder(diagnostics);
+  builder.model.name = std::filesystem::path(path).stem().string();
+  builder.model.files = tokens.files;
+  builder.model.deck_sha256 = digest(tokens.texts);
+  if (tokens.blocks.empty() && diagnostics.number_of_errors() == 0) {
+    diagnostics.error({0, 1}, "", "the deck is empty; it needs at least nodes, elements and a step");
+  }
+  builder.mesh_incomplete = diagnostics.number_of_errors() > 0;
+  const auto tasks = schedule(builder, tokens.blocks, options);
+  run_phase(builder, tasks, Phase::definitions);
+  build_mesh(builder, tasks);
+  for (const Phase phase : {Phase::surfaces, Phase::sections, Phase::constraints, Phase::history}) {
+    run_phase(builder, tasks, phase);
+  }
+  throw_if_wrong(diagnostics, tokens.files);
+  finish_output(builder);
+  throw_if_wrong(diagnostics, tokens.files);
+  if (auto errors = check_model(builder.model); !errors.empty()) {
+    errors.resize(std::min(errors.size(), Diagnostics::greatest_number_of_errors));
+    throw InputError(std::move(errors));
+  }
+  return {std::move(builder.model), diagnostics.warnings(tokens.files)};
+}
+
+}  // namespace balocco

@@ -1,0 +1,32 @@
+// Reads a deck in Abaqus keyword syntax into a Model. How: deck/tokens (lines to keyword blocks), deck/schedule (rules checked,
+// parts and instances flattened), then one handler per keyword (deck/*.cpp), then the checks of model/check.hpp.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "model/model.hpp"
+
+namespace balocco {
+
+/// Whole text of a file; nullopt: there is no such file. In a parallel run it must give every rank the same text.
+using FileLoader = std::function<std::optional<std::string>(const std::string& path)>;
+
+/// Reads plain files.
+FileLoader file_loader();
+
+struct ReadOptions {
+  std::vector<std::string> ignored_keywords;  // keywords (without asterisk) that warn and are skipped instead of being refused
+};
+
+struct ReadResult {
+  Model model;
+  std::vector<std::string> warnings;  // "FILE:LINE: warning: *KEYWORD: ..."
+};
+
+/// @throws InputError with up to 20 messages, sorted by file and line.
+ReadResult read_deck(const std::string& path, const FileLoader& loader, const ReadOptions& options = {});
+
+}  // namespace balocco

@@ -1,0 +1,244 @@
+#include "model/check.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <set>
+
+#include "elements/element_type.hpp"
+#include "materials/material_law.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// Collects messages; each function below looks at one kind of trouble.
+class Checker {
+ public:
+  explicit Checker(const Model& model) : model_(model) {}
+
+  std::vector<std::string> run() {
+    check_sections();
+    check_geometry();
+    check_materials();
+    check_laws_of_sections();
+    check_rigid_bodies();
+    check_contact();
+    for (const auto& step : model_.steps) check_step(step);
+    return std::move(errors_);
+  }
+
+ private:
+  void error(Location location, const std::string& text) {
+    if (errors_.size() >= 100) return;
+    std::string message = fmt::format("{}: error: {}", model_.where(location), text);
+    if (std::find(errors_.begin(), errors_.end(), message) == errors_.end()) errors_.push_back(std::move(message));
+  }
+
+  void check_sections();
+  void check_geometry();
+  void check_element(const ElementTable& table, std::int32_t row);
+  void check_materials();
+  void check_laws_of_sections();
+  void check_law(const Section& section, std::int32_t material);
+  void check_rigid_bodies();
+  void check_contact();
+  void check_step(const Step& step);
+  void check_boundary(const Step& step);
+  void check_density(const Step& step);
+  Point point(const ElementTable& table, std::int32_t row, int node) const {
+    return model_.nodes.coordinates[table.connectivity[row * table.type->nodes + node]];
+  }
+
+  const Model& model_;
+  std::vector<std::string> errors_;
+  std::vector<std::int32_t> carrier_;  // rigid body that carries a node from the start, -1: none
+};
+
+Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+
+Point cross(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+
+/// Six times the volume between a triangle and the origin.
+double six_volumes(const Point& a, const Point& b, const Point& c) { return dot(a, cross(b, c)); }
+
+void Checker::check_sections() {
+  for (const auto& table : model_.elements) {
+    const auto none = std::find(table.section.begin(), table.section.end(), -1);
+    if (none == table.section.end()) continue;
+    const auto row = none - table.section.begin();
+    const auto count = std::count(table.section.begin(), table.section.end(), -1);
+    error(table.location[row], fmt::format("*ELEMENT: element {} of type {} has no section ({} in all); add a section for a set that holds it",
+                                           table.id[row], table.type->name, count));
+  }
+}
+
+/// Volume of a solid by its outward faces; a bilinear face counts as the mean of its two triangulations, which is exact.
+void Checker::check_element(const ElementTable& table, std::int32_t row) {
+  const Point base = point(table, row, 0);
+  const auto at = [&](int node) { return minus(point(table, row, node), base); };
+  const ElementType& type = *table.type;
+  double measure = 0.0, size = 0.0;
+  for (int node = 1; node < type.nodes; ++node) size = std::max(size, std::sqrt(dot(at(node), at(node))));
+  if (type.section == Section::Kind::solid) {
+    for (const auto& face : type.faces) {
+      if (face.size() == 3) measure += six_volumes(at(face[0]), at(face[1]), at(face[2]));
+      if (face.size() != 4) continue;
+      const std::array<Point, 4> p{at(face[0]), at(face[1]), at(face[2]), at(face[3])};
+      measure += 0.5 * (six_volumes(p[0], p[1], p[2]) + six_volumes(p[0], p[2], p[3]) + six_volumes(p[0], p[1], p[3]) +
+                        six_volumes(p[1], p[2], p[3]));
+    }
+    // Round-off of a flat element: far below any shape that can be computed with.
+    if (measure <= 1e-12 * size * size * size) {
+      error(table.location[row], fmt::format("*ELEMENT: element {} has {} volume; list its nodes so that the first face runs "
+                                             "counter-clockwise seen from the opposite face, as {} wants", table.id[row],
+                                             measure < -1e-12 * size * size * size ? "a negative" : "no", type.name));
+    }
+  } else if (type.shape == Shape::triangle || type.shape == Shape::quadrilateral) {
+    const Point normal = type.nodes == 3 ? cross(at(1), at(2)) : cross(at(2), minus(at(3), at(1)));
+    if (std::sqrt(dot(normal, normal)) <= 1e-12 * size * size) {
+      error(table.location[row], fmt::format("*ELEMENT: element {} has no area; its nodes must not lie on a line", table.id[row]));
+    }
+  } else if (type.shape == Shape::line && !(size > 0.0)) {
+    error(table.location[row], fmt::format("*ELEMENT: element {} has no length; its nodes must not coincide", table.id[row]));
+  }
+}
+
+void Checker::check_geometry() {
+  for (const auto& table : model_.elements) {
+    for (std::int32_t row = 0; row < table.size(); ++row) check_element(table, row);
+  }
+}
+
+void Checker::check_materials() {
+  for (const auto& material : model_.materials) {
+    if (material.law.empty()) {
+      error(material.location, fmt::format("*MATERIAL: material {} has no law; add *ELASTIC or *HYPERELASTIC below it", material.name));
+      continue;
+    }
+    const MaterialLaw* law = find_material_law(material.law);
+    if (law == nullptr) {
+      error(material.location, fmt::format("*MATERIAL: material {} has the unknown law {}", material.name, material.law));
+      continue;
+    }
+    try {  // conditions between parameters, such as a positive definite stiffness, are the law's own business
+      if (law->solid != nullptr) {
+        law->solid(material.parameters);
+      } else if (law->plane != nullptr) {
+        law->plane(material.parameters);
+      }
+    } catch (const InputError& trouble) {
+      error(material.location, fmt::format("*MATERIAL: material {}: {}", material.name, trouble.what()));
+    }
+  }
+}
+
+void Checker::check_law(const Section& section, std::int32_t material) {
+  const MaterialLaw* law = find_material_law(model_.materials[material].law);
+  if (law == nullptr) return;  // told
+  const bool composite = !section.plies.empty();
+  const bool fits = section.kind == Section::Kind::solid      ? law->solid != nullptr
+                    : section.kind == Section::Kind::truss    ? law->line != nullptr
+                    : section.kind == Section::Kind::membrane ? (composite ? law->lamina_stiffness != nullptr : law->plane != nullptr)
+                                                              : true;
+  if (!fits) {
+    error(section.location, fmt::format("*{}: the law {} of material {} does not exist for these elements; choose another law",
+                                        section.kind == Section::Kind::membrane ? "MEMBRANE SECTION" : "SOLID SECTION", law->name,
+                                        model_.materials[material].name));
+  }
+}
+
+void Checker::check_laws_of_sections() {
+  for (const auto& section : model_.sections) {
+    if (section.material >= 0) check_law(section, section.material);
+    for (const auto& ply : section.plies) check_law(section, ply.material);
+  }
+}
+
+void Checker::check_rigid_bodies() {
+  carrier_.assign(model_.nodes.id.size(), -1);
+  std::vector<std::int32_t> reference(model_.nodes.id.size(), -1);
+  for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
+    reference[model_.rigid_bodies[b].reference_node] = static_cast<std::int32_t>(b);
+  }
+  for (std::size_t b = 0; b < model_.rigid_bodies.size(); ++b) {
+    const auto& body = model_.rigid_bodies[b];
+    for (const auto* nodes : {&body.tie_nodes, &body.pin_nodes}) {
+      for (const auto node : *nodes) {
+        const auto id = model_.nodes.id[node];
+        if (reference[node] >= 0) {
+          error(body.location, fmt::format("*RIGID BODY: node {} is the reference node of another rigid body; take it out of the set", id));
+          break;
+        }
+        if (carrier_[node] >= 0) {
+          error(body.location, fmt::format("*RIGID BODY: node {} already belongs to the rigid body of {}; take it out of one of them", id,
+                                           model_.where(model_.rigid_bodies[carrier_[node]].location)));
+          break;
+        }
+        carrier_[node] = static_cast<std::int32_t>(b);
+      }
+    }
+  }
+}
+
+void Checker::check_contact() {
+  for (const auto& pair : model_.contact_pairs) {
+    const auto& slave = model_.surfaces[pair.slave];
+    const auto& master = model_.surfaces[pair.master];
+    const auto carries = [&](const RigidBody& body) { return body.analytical_surface == pair.master; };
+    if (slave.kind == Surface::Kind::analytical || master.kind != Surface::Kind::analytical) {
+      error(pair.location, fmt::format("*CONTACT PAIR: slave {} must be made of element faces or nodes and master {} be analytical",
+                                       slave.name, master.name));
+    } else if (std::none_of(model_.rigid_bodies.begin(), model_.rigid_bodies.end(), carries)) {
+      error(pair.location, fmt::format("*CONTACT PAIR: surface {} belongs to no rigid body; add *RIGID BODY, ANALYTICAL SURFACE={}, "
+                                       "REF NODE=...", master.name, master.name));
+    }
+  }
+}
+
+void Checker::check_boundary(const Step& step) {
+  for (const auto& condition : step.boundary) {
+    const std::int32_t body = carrier_[condition.node];
+    if (body < 0) continue;
+    error({condition.file, condition.line},
+          fmt::format("*BOUNDARY: node {} is carried by the rigid body of {}; prescribe its reference node {} instead (in a step that attaches "
+                      "nodes, *BOUNDARY, OP=NEW drops their earlier conditions)",
+                      model_.nodes.id[condition.node], model_.where(model_.rigid_bodies[body].location),
+                      model_.nodes.id[model_.rigid_bodies[body].reference_node]));
+  }
+}
+
+void Checker::check_density(const Step& step) {
+  if (step.procedure != Step::Procedure::explicit_dynamics && step.gravity.empty()) return;
+  const char* why = step.procedure == Step::Procedure::explicit_dynamics ? "an explicit step" : "gravity";
+  const auto need = [&](std::int32_t material) {
+    if (material < 0 || model_.materials[material].density > 0.0) return;
+    error(model_.materials[material].location, fmt::format("*MATERIAL: material {} has no density, which {} needs; add *DENSITY",
+                                                           model_.materials[material].name, why));
+  };
+  for (const auto& section : model_.sections) {
+    need(section.material);
+    for (const auto& ply : section.plies) need(ply.material);
+  }
+}
+
+void Checker::check_step(const Step& step) {
+  for (const auto& change : step.attachments) {
+    for (const auto node : change.nodes) carrier_[node] = change.release ? -1 : change.rigid_body;
+  }
+  check_boundary(step);
+  check_density(step);
+}
+
+}  // namespace
+
+std::vector<std::string> check_model(const Model& model) { return Checker(model).run(); }
+
+}  // namespace balocco

@@ -1,0 +1,27 @@
+#include <gtest/gtest.h>
+
+#include "deck_support.hpp"
+#include "elements/element_type.hpp"
+
+namespace balocco {
+namespace {
+
+using test::brick;
+using test::read;
+
+TEST(DeckReader, BrickWithAStaticStep) {
+  const auto [model, warnings] = read(brick + "*STEP, NLGEOM\n*STATIC\n0.1, 1.\n*BOUNDARY\n1, 1, 3\n2, 3, 3, 0.5\n*END STEP\n");
+  EXPECT_TRUE(warnings.empty());
+  EXPECT_EQ(model.nodes.size(), 8);
+  ASSERT_EQ(model.elements.size(), 1u);
+  EXPECT_EQ(model.elements[0].type, find_element_type("C3D8R"));
+  EXPECT_EQ(model.elements[0].connectivity, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
+  EXPECT_EQ(model.elements[0].section, std::vector<std::int32_t>{0});
+  ASSERT_EQ(model.steps.size(), 1u);
+  EXPECT_EQ(model.steps[0].boundary.size(), 4u);
+  EXPECT_TRUE(model.steps[0].static_procedure.nonlinear_geometry);
+  EXPECT_DOUBLE_EQ(model.steps[0].boundary[3].magnitude, 0.5);
+}
+
+}  // namespace
+}  // namespace balocco
