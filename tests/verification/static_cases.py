@@ -1,0 +1,270 @@
+"""Static cases with known answers, through the whole program on one and two ranks:
+static_cases.py CASE PROGRAM FOLDER. Sources of the numbers stand with each case."""
+import math
+import sys
+
+import numpy as np
+
+from static_model import OUTPUT, Deck, Runner, brick, close
+
+ELASTIC = """
+*SOLID SECTION, ELSET=ALL, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+{young}, {poisson}
+*DENSITY
+1e-9
+"""
+
+
+def patch(runner, kind):
+    """Irregular bricks whose outer nodes follow an affine map: the inner ones must too, whatever the law, to round-off."""
+    deck = brick((3, 3, 3), (1.0, 1.0, 1.0), kind)
+    generator = np.random.default_rng(7)
+    inner = deck.where(lambda x, y, z: all(0.1 < c < 0.9 for c in (x, y, z)))
+    for n in inner:
+        deck.nodes[n] = tuple(np.array(deck.nodes[n]) + generator.uniform(-0.08, 0.08, 3))
+    gradient = np.array([[0.10, 0.05, -0.02], [0.03, -0.06, 0.04], [0.02, 0.01, 0.08]])
+    deck.add(ELASTIC.format(young=100.0, poisson=0.3))
+    deck.add("*STEP, NLGEOM\n*STATIC\n0.5, 1., 1e-5, 0.5\n*BOUNDARY")
+    for n, x in deck.nodes.items():
+        if n not in inner:
+            for dof, u in enumerate(gradient @ np.array(x), 1):
+                deck.add("%d, %d, %d, %.17g" % (n, dof, dof, u))
+    deck.add(OUTPUT + "*END STEP")
+    results = runner.run_alike("patch_" + kind.lower(), deck)
+    for n in inner:
+        error = np.abs(results.at(n, "U") - gradient @ np.array(deck.nodes[n])).max()
+        close(error, 0.0, 1e-10, "node %d off the affine map" % n)
+    stress = results.element(kind, "S")
+    close(np.ptp(stress, axis=0).max() / np.abs(stress).max(), 0.0, 1e-9, "spread of stress")
+
+
+def cantilever(length, depth, width, counts, kind="C3D8R"):
+    deck = brick(counts, (length, width, depth), kind)
+    deck.sets["ROOT"] = deck.where(lambda x, y, z: x < 1e-9)
+    deck.sets["TIP"] = deck.where(lambda x, y, z: x > length - 1e-9)
+    deck.add_node(9001, length, 0.5 * width, 0.5 * depth)
+    deck.add("*RIGID BODY, REF NODE=9001, TIE NSET=TIP")
+    return deck
+
+
+def elastica(runner):
+    """Cantilever under a dead tip force P L^2 / EI = 4: w/L = 0.66996, u/L = 0.32894 (elastica by shooting). Slenderness 100 and
+    nu = 0 leave shear and section deformation out; the mesh of 50 bricks is good for 0.5 %."""
+    length, depth, width, young = 10.0, 0.1, 1.0, 1.2e6
+    deck = cantilever(length, depth, width, (50, 1, 2))
+    load = 4.0 * young * width * depth**3 / 12.0 / length**2
+    deck.add(ELASTIC.format(young=young, poisson=0.0))
+    deck.add("*STEP, NLGEOM\n*STATIC\n0.1, 1., 1e-5, 0.25\n*BOUNDARY\nROOT, 1, 3\n*CLOAD\n9001, 3, %.17g" % load)
+    deck.add(OUTPUT + "*END STEP")
+    results = runner.run_alike("elastica", deck)
+    u = results.at(9001, "U")
+    close(u[2] / length, 0.66996, 5e-3, "tip deflection w/L")
+    close(-u[0] / length, 0.32894, 1e-2, "tip shortening u/L")
+    reaction = sum(results.at(n, "RF")[2] for n in deck.sets["ROOT"])
+    close(reaction, -load, 1e-8, "vertical reaction")
+
+
+def rollup(runner):
+    """The same strip bent by a turned end: a half circle, M = EI theta / L, tip where the arc ends. Bending strain t theta / 2L =
+    1.6 % leaves about its square; prescribed rotation and free translations of a rigid body."""
+    length, depth, width, young = 10.0, 0.1, 1.0, 1.2e6
+    deck = cantilever(length, depth, width, (40, 1, 2))
+    deck.add(ELASTIC.format(young=young, poisson=0.0))
+    deck.add("*STEP, NLGEOM, INC=200\n*STATIC\n0.1, 1., 1e-5, 0.2\n*BOUNDARY\nROOT, 1, 3\n9001, 5, 5, %.17g" % -math.pi)
+    deck.add(OUTPUT + "*END STEP")
+    results = runner.run_alike("rollup", deck)
+    u, moment = results.at(9001, "U"), results.at(9001, "RM")[1]
+    stiffness = young * width * depth**3 / 12.0
+    close(moment, -stiffness * math.pi / length, 1e-2, "moment at half a circle")
+    close(u[0], -length, 5e-3, "u = L (sin t / t - 1)")
+    close(u[2], 2.0 * length / math.pi, 5e-3, "w = L (1 - cos t) / t")
+    close(results.at(9001, "UR")[1], -math.pi, 1e-12, "rotation")
+
+
+def rotation(runner):
+    """A block whose two ends are rigid bodies that turn about one axis by 120 degrees: no stress, and the middle turns along."""
+    deck = brick((4, 2, 2), (2.0, 1.0, 1.0))
+    ends = {9001: deck.where(lambda x, y, z: x < 1e-9), 9002: deck.where(lambda x, y, z: x > 2.0 - 1e-9)}
+    for reference, nodes in ends.items():
+        deck.add_node(reference, 0.5, -1.0, 0.25)
+        deck.sets["E%d" % reference] = nodes
+        deck.add("*RIGID BODY, REF NODE=%d, TIE NSET=E%d" % (reference, reference))
+    angle = 2.0 * math.pi / 3.0
+    deck.add(ELASTIC.format(young=1000.0, poisson=0.3))
+    deck.add("*STEP, NLGEOM\n*STATIC\n0.25, 1., 1e-5, 0.25\n*BOUNDARY")
+    for reference in ends:
+        deck.add("%d, 1, 5\n%d, 6, 6, %.17g" % (reference, reference, angle))
+    deck.add(OUTPUT + "*END STEP")
+    results = runner.run_alike("rotation", deck)
+    turn = np.array([[math.cos(angle), -math.sin(angle), 0.0], [math.sin(angle), math.cos(angle), 0.0], [0.0, 0.0, 1.0]])
+    pivot = np.array([0.5, -1.0, 0.25])
+    error = max(np.abs(results.at(n, "U") - (pivot + turn @ (np.array(x) - pivot) - x)).max() for n, x in deck.nodes.items())
+    close(error, 0.0, 1e-9, "distance from the turned block")
+    close(np.abs(results.element("C3D8R", "S")).max() / 1000.0, 0.0, 1e-9, "stress / E")
+
+
+def release(runner):
+    """A bar pulled by a prescribed motion that the next step takes away: the force fades linearly over that step."""
+    deck = brick((4, 1, 1), (4.0, 1.0, 1.0))
+    deck.sets["ROOT"] = deck.where(lambda x, y, z: x < 1e-9)
+    deck.sets["TIP"] = deck.where(lambda x, y, z: x > 4.0 - 1e-9)
+    deck.add(ELASTIC.format(young=1000.0, poisson=0.0))
+    pull = 1e-6  # strains of 2.5e-7: linear to that
+    deck.add("*STEP, NLGEOM\n*STATIC\n1., 1.\n*BOUNDARY\nROOT, 1, 3\nTIP, 1, 1, %g" % pull + OUTPUT + "*END STEP")
+    deck.add("*STEP, NLGEOM\n*STATIC, DIRECT\n0.25, 1.\n*BOUNDARY, OP=NEW\nROOT, 1, 3" + OUTPUT + "*END STEP")
+    results = runner.run_alike("release", deck)
+    tip = deck.sets["TIP"][0]
+    close(sum(results.at(n, "RF")[0] for n in deck.sets["TIP"]), 1000.0 * pull / 4.0, 1e-5, "pull")
+    frames = results.frames(2)
+    for frame in frames[-4:]:
+        share = 1.0 - (frame.attrs["time"] - 1.0)
+        close(frame["node/U"][results.row[tip]][0] / pull, share, 1e-5, "motion left at %g of the step" % (1.0 - share))
+
+
+def linear(runner):
+    """NLGEOM=NO: answers proportional to the load, and the cantilever of beam theory, P L^3 / 3EI + P L / (5/6 G A) with nu = 0
+    (reduced bricks with assumed bending strain meet it within 2 % with 20 bricks)."""
+    length, depth, width, young, load = 10.0, 1.0, 1.0, 1e5, 200.0
+    tips = []
+    for name, factor in (("linear", 1.0), ("linear_twice", 2.0)):
+        deck = cantilever(length, depth, width, (20, 1, 2))
+        deck.add(ELASTIC.format(young=young, poisson=0.0))
+        deck.add("*STEP\n*STATIC\n1., 1.\n*BOUNDARY\nROOT, 1, 3\n9001, 4, 4\n9001, 6, 6\n*CLOAD\n9001, 3, %g" % (factor * load))
+        deck.add(OUTPUT + "*END STEP")
+        results = runner.run_alike(name, deck)
+        tips.append(results.at(9001, "U")[2])
+        close(sum(results.at(n, "RF")[2] for n in deck.sets["ROOT"]), -factor * load, 1e-9, "reaction")
+    inertia, area = width * depth**3 / 12.0, width * depth
+    close(tips[0], load * length**3 / (3 * young * inertia) + load * length / (5.0 / 6.0 * young / 2.0 * area), 2e-2, "tip")
+    close(tips[1] / tips[0], 2.0, 1e-9, "twice the load")
+
+
+def hencky(runner):
+    """Clamped circular membrane, nu = 0.3, blown up from flat and stress-free: w0 = 0.6533 a (p a / E t)^(1/3) (Hencky's series).
+    At p a / E t = 1e-6 slopes are small, as the series wants; 12 rings of quadrilaterals are good for 1 %."""
+    radius, thickness, young, pressure, rings, sectors = 1.0, 1e-3, 1e6, 1e-3, 12, 24
+    deck = Deck()
+    # A square core blends into circles, so that no element degenerates.
+    half = 6
+    core = {}
+    for i in range(-half, half + 1):
+        for j in range(-half, half + 1):
+            s, t = i / half, j / half
+            # The elliptical map of the square onto the disc.
+            core[i, j] = 1 + (i + half) + (2 * half + 1) * (j + half)
+            deck.add_node(core[i, j], radius * s * math.sqrt(1 - t * t / 2), radius * t * math.sqrt(1 - s * s / 2), 0.0)
+    elements = deck.elements.setdefault("M3D4", [])
+    for i in range(-half, half):
+        for j in range(-half, half):
+            elements.append((1 + len(elements), [core[i, j], core[i + 1, j], core[i + 1, j + 1], core[i, j + 1]]))
+    deck.sets["RIM"] = deck.where(lambda x, y, z: math.hypot(x, y) > radius - 1e-9)
+    deck.add("*MEMBRANE SECTION, ELSET=ALL, MATERIAL=M\n%g\n*MATERIAL, NAME=M\n*ELASTIC\n%g, 0.3" % (thickness, young))
+    deck.add("*SURFACE, NAME=UP, TYPE=ELEMENT\nALL, SNEG")
+    deck.add("*STEP, NLGEOM, INC=200\n*STATIC\n0.2, 1., 1e-6, 0.5\n*BOUNDARY\nRIM, 1, 3\n*DSLOAD\nUP, P, %g" % pressure)
+    deck.add(OUTPUT + "*END STEP")
+    results = runner.run_alike("hencky", deck)
+    expected = 0.6533 * radius * (pressure * radius / (young * thickness)) ** (1.0 / 3.0)
+    close(results.at(core[0, 0], "U")[2], expected, 1.5e-2, "deflection of the centre")
+
+
+ROAD = """
+*NODE, NSET=ROAD
+9001, 0., 0., 0.
+*SURFACE, NAME=ROAD, TYPE=CYLINDER
+0., 0., 0., 1., 0., 0.
+0., 0., 1.
+START, {start:.17g}, 0.
+LINE, {end:.17g}, 0.
+*RIGID BODY, ANALYTICAL SURFACE=ROAD, REF NODE=9001
+*SURFACE INTERACTION, NAME=RUBBER
+*FRICTION
+{friction}
+*CONTACT PAIR, INTERACTION=RUBBER
+FOOT, ROAD
+"""
+
+
+def road(runner):
+    """A block pressed on the road, which then moves sideways: the pressing force comes back as the road's reaction, friction is mu
+    times it once all slides, and less before."""
+    deck = brick((3, 3, 2), (1.0, 1.0, 1.0), transform=lambda x, y, z: (x - 0.5, y - 0.5, z + 0.01))
+    deck.sets["TOP"] = deck.where(lambda x, y, z: z > 1.0)
+    deck.add_node(9002, 0.0, 0.0, 1.01)
+    deck.add("*RIGID BODY, REF NODE=9002, TIE NSET=TOP")
+    deck.add(ELASTIC.format(young=10.0, poisson=0.3))
+    deck.add("*ELSET, ELSET=BOTTOM, GENERATE\n1, 9\n*SURFACE, NAME=FOOT, TYPE=ELEMENT\nBOTTOM, S1")
+    deck.add(ROAD.format(start=5.0, end=-5.0, friction=0.5))
+    held = "*BOUNDARY\n9001, 1, 6\n9002, 1, 2\n9002, 4, 6\n"
+    deck.add("*STEP, NLGEOM\n*STATIC\n0.2, 1., 1e-5, 0.5\n%s9002, 3, 3, -0.06" % held + OUTPUT + "*END STEP")
+    deck.add("*STEP, NLGEOM\n*STATIC\n0.2, 1., 1e-5, 0.5\n*BOUNDARY, OP=NEW\n9001, 1, 6\n9002, 1, 2\n9002, 4, 6\n"
+             "*CLOAD\n9002, 3, -0.8" + OUTPUT + "*END STEP")
+    deck.add("*STEP, NLGEOM\n*STATIC\n0.1, 1., 1e-5, 0.25\n*BOUNDARY\n9001, 1, 1, 0.5" + OUTPUT + "*END STEP")
+    results = runner.run_alike("road", deck)
+    close(results.at(9001, "RF", 1)[2], -results.at(9002, "RF", 1)[2], 1e-8, "road against block")
+    assert results.at(9002, "RF", 1)[2] < -0.3, "the block is pressed"
+    close(results.at(9001, "RF", 2)[2], -0.8, 1e-7, "road carries the load")
+    close(abs(results.at(9001, "RF", 2)[0]), 0.0, 1e-7, "no shear while pressing evenly")
+    close(results.at(9001, "RF", 3)[0], 0.4, 1e-6, "sliding friction mu N")
+    close(results.at(9001, "RF", 3)[2], -0.8, 1e-7, "load while sliding")
+
+
+def ring(runner):
+    """*TRANSFORM, TYPE=C: a ring of trusses whose nodes all move outwards by one hundredth: axial force E A ln(1.01) or its like,
+    and equal radial reactions 2 F sin(half the angle)."""
+    count, radius, young, area = 12, 2.0, 1000.0, 0.1
+    deck = Deck()
+    for n in range(count):
+        angle = 2 * math.pi * n / count
+        deck.add_node(n + 1, radius * math.cos(angle), radius * math.sin(angle), 0.0)
+    deck.elements["T3D2"] = [(n + 1, [n + 1, (n + 1) % count + 1]) for n in range(count)]
+    deck.sets["RING"] = list(range(1, count + 1))
+    deck.add("*TRANSFORM, NSET=RING, TYPE=C\n0., 0., 0., 0., 0., 1.")
+    deck.add("*SOLID SECTION, ELSET=ALL, MATERIAL=M\n%g\n*MATERIAL, NAME=M\n*ELASTIC\n%g, 0.3" % (area, young))
+    deck.add("*STEP, NLGEOM\n*STATIC\n1., 1.\n*BOUNDARY\nRING, 1, 1, %.17g\nRING, 3, 3\n1, 2, 2" % (0.01 * radius))
+    deck.add(OUTPUT + "*END STEP")
+    results = runner.run_alike("ring", deck)
+    reactions = results.node("RF")
+    radial = [np.dot(reactions[results.row[n]], np.array(deck.nodes[n])) / radius for n in deck.sets["RING"]]
+    close(np.ptp(radial) / radial[0], 0.0, 1e-9, "spread of radial reactions")
+    force = radial[0] / (2.0 * math.sin(math.pi / count))
+    # Between nominal strain and logarithmic strain the choice of the law makes half the strain.
+    close(force / (young * area), 0.01, 2e-2, "axial strain")
+    for n in deck.sets["RING"]:
+        close(np.abs(results.at(n, "U") - 0.01 * np.array(deck.nodes[n])).max(), 0.0, 1e-12, "radial motion of node %d" % n)
+
+
+def mechanism(runner):
+    """A bar that may turn about its own axis: refused with the node and dof, on one rank and on two."""
+    deck = brick((2, 1, 1), (2.0, 1.0, 1.0))
+    deck.sets["ROOT"] = deck.where(lambda x, y, z: x < 1e-9)
+    deck.add(ELASTIC.format(young=1000.0, poisson=0.3))
+    deck.add("*STEP, NLGEOM\n*STATIC\n1., 1.\n*BOUNDARY\nROOT, 1, 1\n*CLOAD\n%d, 1, 1." % deck.node_at((2.0, 0.0, 0.0)))
+    deck.add(OUTPUT + "*END STEP")
+    for ranks in (1, 2):
+        done, _ = runner.launch("mechanism", deck, ranks)
+        said = done.stdout + done.stderr
+        assert done.returncode == 3, "exit status %d\n%s" % (done.returncode, said)
+        last = said.strip().splitlines()[-1]
+        assert "singular" in said and "node " in said and "dof " in said, said
+        print(last)
+
+
+CASES = {
+    "patch_c3d8r": lambda runner: patch(runner, "C3D8R"),
+    "patch_c3d8": lambda runner: patch(runner, "C3D8"),
+    "elastica": elastica,
+    "rollup": rollup,
+    "rotation": rotation,
+    "release": release,
+    "linear": linear,
+    "hencky": hencky,
+    "road": road,
+    "ring": ring,
+    "mechanism": mechanism,
+}
+
+if __name__ == "__main__":
+    case, program, folder = sys.argv[1:4]
+    CASES[case](Runner(program, folder))
