@@ -12,7 +12,7 @@ constexpr int samples_per_span =
 }  // namespace
 
 MeridianLine::MeridianLine(const TyreSpec& spec) {
-  std::vector<ProfilePoint> points{
+  std::vector<SectionPoint> points{
       {spec.crown_radius, 0.0, spec.regions[0].points[0].base, spec.regions[0].points[0].cap}};
   std::vector<std::size_t> last_of_region;
   for (const auto& region : spec.regions) {

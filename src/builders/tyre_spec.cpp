@@ -103,7 +103,7 @@ void read_plies(SpecTable& top, TyreSpec& spec) {
 void read_points(SpecTable& table, bool has_cap, RegionSpec& region) {
   const std::size_t columns = has_cap ? 4 : 3;
   for (const auto& row : table.rows("points", columns, columns)) {
-    const ProfilePoint point{row[0], row[1], row[2], has_cap ? row[3] : 0.0};
+    const SectionPoint point{row[0], row[1], row[2], has_cap ? row[3] : 0.0};
     if (point.radius <= 0.0 || point.axial <= 0.0 || point.base <= 0.0 || (has_cap && point.cap <= 0.0))
       table.fault(
           "points",

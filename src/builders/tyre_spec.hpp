@@ -38,7 +38,7 @@ struct PlySpec {
 };
 
 /// A point of the right half of the moulded carcass line and the rubber outside it there.
-struct ProfilePoint {
+struct SectionPoint {
   double radius = 0.0, axial = 0.0;  // mm, axial >= 0
   double base = 0.0;                 // rubber normal to the line, the layer that runs from bead to bead
   double cap = 0.0;                  // and on top of it, the tread cap
@@ -56,7 +56,7 @@ constexpr std::array<const char*, region_count> region_names{"belt", "shoulder",
 
 /// Part of the section between the last point of the region above and its own last point.
 struct RegionSpec {
-  std::vector<ProfilePoint> points;
+  std::vector<SectionPoint> points;
   int elements = 0;
   std::vector<int> plies;  // rows of TyreSpec::plies, from outside to inside
 };
@@ -84,7 +84,7 @@ struct StaticSpec {
   double pressure = 0.0, seating_pressure = 0.0;  // MPa
   double load = 0.0;                              // N
   double contact_deflection = 0.0;                // mm by which the road rises beyond first touch
-  double expected_stiffness = 0.0;                // N/mm, for the estimates that the deck needs
+  double expected_stiffness = 0.0;                // N/mm, for the estimate of the rolling radius
   bool stabilize = false;
 };
 

@@ -102,12 +102,12 @@ class StepAuthor {
     step.pressures.push_back(load);
   }
 
-  void lift(Step& step, double force, double previous) const {
+  /// The force that presses the road against the tyre.
+  void lift(Step& step) const {
     ConcentratedLoad load;
     load.node = rig_.road;
     load.dof = 2;
-    load.magnitude = force;
-    load.previous = previous;
+    load.magnitude = spec_.statics.load;
     step.concentrated_loads.push_back(load);
   }
 
@@ -145,15 +145,14 @@ class StepAuthor {
     return step;
   }
 
-  /// The road rises to the tyre and presses on it; a force of about the size that it then meets is already there, so
-  /// that setting the road free in the next step disturbs little.
+  /// The road rises to the tyre and presses on it; the next step sets it free, and what the road was held by fades as
+  /// the load grows.
   Step touching() const {
     auto step = static_step("CONTACT", 0.2, 0.2);
     hold(step, rig_.hub, true);
     hold(step, rig_.road, true, 2);
     step.boundary.push_back(moved(rig_.road, 2, spec_.road.clearance + spec_.statics.contact_deflection));
     press(step, spec_.statics.pressure, spec_.statics.pressure);
-    lift(step, first_force(), 0.0);
     step.active_contact_pairs = {0};
     return step;
   }
@@ -163,7 +162,7 @@ class StepAuthor {
     hold(step, rig_.hub, true);
     hold(step, rig_.road, true, 2);
     press(step, spec_.statics.pressure, spec_.statics.pressure);
-    lift(step, spec_.statics.load, first_force());
+    lift(step);
     step.active_contact_pairs = {0};
     step.checkpoint_frequency = last_increment_only;
     return step;
@@ -196,10 +195,6 @@ class StepAuthor {
     step.history_outputs.back().time_interval = spec_.output.history_interval;
     if (spec_.output.checkpoints > 0) step.checkpoint_number_interval = spec_.output.checkpoints;
     return step;
-  }
-
-  double first_force() const {
-    return std::min(spec_.statics.load, spec_.statics.expected_stiffness * spec_.statics.contact_deflection);
   }
 
   const TyreSpec& spec_;

@@ -68,7 +68,7 @@ TEST(MeridianLine, FollowsACircle) {
   spec.crown_radius = 200.0 + radius;
   const auto at = [&](double degrees) {
     const double angle = degrees * std::numbers::pi / 180.0;
-    return ProfilePoint{200.0 + radius * std::cos(angle), radius * std::sin(angle), 5.0, 0.0};
+    return SectionPoint{200.0 + radius * std::cos(angle), radius * std::sin(angle), 5.0, 0.0};
   };
   for (int r = 0; r < region_count; ++r) spec.regions[r].points = {at(20.0 * r + 10.0), at(20.0 * r + 20.0)};
   const MeridianLine circle(spec);
@@ -261,7 +261,7 @@ TEST(TyreModel, StepsSeatInflateTouchLoadAndRoll) {
   EXPECT_EQ(model.steps[1].attachments[0].nodes.size(), left.size() + nodes_of(model, "BEAD_RIGHT").size());
   EXPECT_DOUBLE_EQ(model.steps[1].pressures[0].previous, 0.02);
   EXPECT_DOUBLE_EQ(model.steps[3].concentrated_loads[0].magnitude, 3061.0);
-  EXPECT_DOUBLE_EQ(model.steps[3].concentrated_loads[0].previous, model.steps[2].concentrated_loads[0].magnitude);
+  EXPECT_TRUE(model.steps[2].concentrated_loads.empty());
   // Rolling: the hub spins freely, the road travels backwards at its height, the wheel turns forwards.
   const auto hub = nodes_of(model, "HUB")[0], road = nodes_of(model, "ROAD")[0];
   for (const auto& condition : model.steps[5].boundary) {
