@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <numeric>
 
 #include "elements/aligned_vector.hpp"
 #include "elements/membrane_kernel.hpp"
@@ -153,9 +152,9 @@ TEST_P(MembraneExplicit, StableIncrementOfARectangleIsExact) {
   }
 }
 
-// Any quadrilateral, law, stretch and warp: never above the exact limit of the element. Sharpness as measured on these samples
-// (means 0.91 and 0.74 for the worst type, least 0.70 and 0.47): of linear laws the estimate knows the moduli by direction, of rubber
-// one bound only, and the moduli of both stand beside tension and warp as if all met in one mode.
+// Any quadrilateral, law, stretch and warp: never above the exact limit of the element. How far below was measured on these
+// samples (M3D4, the worst type: mean 0.893, least 0.707 for linear laws, whose moduli the estimate knows by direction; 0.677 and 0.474
+// for rubber, known by one bound of all directions): the limits say that it does not get worse.
 TEST_P(MembraneExplicit, StableIncrementIsSafeAndSharp) {
   double sum[2] = {0.0, 0.0}, least[2] = {1.0, 1.0};
   int count[2] = {0, 0};
@@ -180,12 +179,10 @@ TEST_P(MembraneExplicit, StableIncrementIsSafeAndSharp) {
       ++count[rubber];
       least[rubber] = std::min(least[rubber], ratio);
     }
-  std::printf("sharpness: linear mean %.3f least %.3f, rubber mean %.3f least %.3f\n", sum[0] / count[0], least[0],
-              sum[1] / count[1], least[1]);
-  EXPECT_GT(sum[0] / count[0], 0.85);
-  EXPECT_GT(least[0], 0.68);
-  EXPECT_GT(sum[1] / count[1], 0.65);
-  EXPECT_GT(least[1], 0.45);
+  EXPECT_GT(sum[0] / count[0], 0.88);
+  EXPECT_GT(least[0], 0.70);
+  EXPECT_GT(sum[1] / count[1], 0.67);
+  EXPECT_GT(least[1], 0.47);
 }
 
 /// Central differences with velocities half a step behind on one free element; the growth of a small random velocity.
