@@ -46,8 +46,10 @@ void mean_output(const ElementGroup& group, std::string_view variable, std::int3
   std::array<double, 16> at_point{};
   std::fill(values.begin(), values.end(), 0.0);
   const int points = group.integration_points();
+  std::vector<double> history(group.history_size());
+  group.load_history(element, state.element_history[group_index], history);
   for (int point = 0; point < points; ++point) {
-    group.output(variable, element, point, state.position.data(), state.element_history[group_index],
+    group.output(variable, element, point, state.position.data(), history,
                  std::span(at_point).first(values.size()));
     for (std::size_t c = 0; c < values.size(); ++c) values[c] += at_point[c];
   }
@@ -78,6 +80,7 @@ FieldBlock FrameWriter::write_nodes(const Target& target, const ResultSource& so
     target.file.write(group, name, nodes_.exchange, nodes_.exchange.to_slab(held, components), layout);
     block.fields.push_back(record(name, nodes_.exchange, layout));
   }
+  sort_fields(block);
   return block;
 }
 
@@ -85,6 +88,7 @@ std::vector<double> FrameWriter::element_values(const TableRows& rows, const Res
                                                 Points points, int row_values, int columns) const {
   std::vector<double> values(rows.exchange.held() * row_values, 0.0);
   const State& state = source.state();
+  std::vector<double> history;
   auto row = values.begin();
   for (std::size_t g = 0; g < rows.groups.size(); ++g) {
     const ElementGroup& group = *rows.groups[g];
@@ -96,8 +100,10 @@ std::vector<double> FrameWriter::element_values(const TableRows& rows, const Res
         mean_output(group, variable, element, state, rows.group_index[g], {&*row, size});
         continue;
       }
+      history.resize(group.history_size());
+      group.load_history(element, state.element_history[rows.group_index[g]], history);
       for (int point = 0; point < group.integration_points(); ++point) {
-        group.output(variable, element, point, state.position.data(), state.element_history[rows.group_index[g]],
+        group.output(variable, element, point, state.position.data(), history,
                      {&*row + static_cast<std::ptrdiff_t>(point) * columns, size});
       }
     }
@@ -130,6 +136,7 @@ FieldBlock FrameWriter::write_table(const Target& target, const TableRows& rows,
   };
   for (const auto& variable : variables.elements) write(variable, Points::mean);
   for (const auto& variable : variables.integration_points) write(variable, Points::each);
+  sort_fields(block);
   return block;
 }
 

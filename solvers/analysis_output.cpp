@@ -200,8 +200,10 @@ EnergyBalance Analysis::energies() const {
   std::array<ExactSum, count> sums;
   for (std::size_t index = 0; index < element_groups.size(); ++index) {
     const auto& group = *element_groups[index];
+    std::vector<double> history(group.history_size());
     for (std::int32_t e = 0; e < group.size(); ++e) {
-      const auto energy = group.energies(e, current.position.data(), current.element_history[index]);
+      group.load_history(e, current.element_history[index], history);
+      const auto energy = group.energies(e, current.position.data(), history);
       sums[strain].add(energy.strain);
       sums[hourglass].add(energy.hourglass);
       sums[viscous].add(energy.viscous);

@@ -45,14 +45,13 @@ std::vector<double> shortest_edges(const Model& model, const Domain& domain) {
 double reference_increment(const Analysis& analysis) {
   const auto& domain = analysis.domain;
   std::vector<double> position(4 * static_cast<std::size_t>(domain.size() + 1), 0.0), velocity(position.size(), 0.0),
-      force(position.size(), 0.0), history;
+      force(position.size(), 0.0);
   for (std::int32_t node = 0; node < domain.size(); ++node)
     std::copy_n(analysis.model.nodes.coordinates[domain.node_row[node]].data(), 3, &position[4 * node]);
   const ExplicitCycle cycle{.position = position.data(), .velocity = velocity.data(), .force = force.data()};
   StableIncrement smallest;
   for (const auto& group : analysis.element_groups) {
-    history.resize(static_cast<std::size_t>(group->history_size()) * static_cast<std::size_t>(group->padded_size()));
-    group->initialize_history(history);
+    auto history = group->initial_history();
     for (const auto portion : {Portion::interface, Portion::interior})
       smallest.merge(group->add_forces(portion, cycle, history));
   }

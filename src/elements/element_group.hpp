@@ -5,7 +5,8 @@
 // changes the fourth. Elements are padded to whole packs; padded lanes repeat a real element and add their force to the
 // scratch node behind the last real one.
 //
-// History is a structure of arrays, history[component * padded_size() + element]. Reference configuration of every kernel is
+// The history of a group is a structure of arrays, history[component * padded_size() + element]; functions that look at one
+// element take that element's own history, its components one after the other (load_history, store_history). Reference configuration of every kernel is
 // Model::nodes.coordinates (total Lagrangian).
 #pragma once
 
@@ -73,9 +74,15 @@ class ElementGroup {
   }
   int nodes_per_element() const { return nodes_per_element_; }
 
-  /// Doubles of history an element carries, and their values in the undeformed state.
+  /// Doubles of history an element carries, and their values in the undeformed state (one element's own).
   virtual int history_size() const = 0;
   virtual void initialize_history(std::span<double> history) const = 0;
+
+  /// History of the whole group in the undeformed state.
+  std::vector<double> initial_history() const;
+  /// Copies the history of one element out of, or into, that of the group.
+  void load_history(std::int32_t element, std::span<const double> group_history, std::span<double> own) const;
+  void store_history(std::int32_t element, std::span<const double> own, std::span<double> group_history) const;
 
   /// Lumped mass of each node of an element (unscaled sum = density x reference volume).
   virtual void lumped_mass(std::int32_t element, std::span<double> mass) const = 0;

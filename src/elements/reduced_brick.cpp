@@ -64,7 +64,7 @@ ReducedBrick::ReducedBrick(const GroupInput& input)
 
 void ReducedBrick::initialize_history(std::span<double> history) const {
   std::fill(history.begin(), history.end(), 0.0);
-  std::fill_n(history.begin(), padded_size_, 1.0);
+  history[0] = 1.0;
 }
 
 void ReducedBrick::lumped_mass(std::int32_t element, std::span<double> mass) const {

@@ -56,11 +56,7 @@ struct Sheet {
     input.scratch_node = model.nodes.size();
     group = model.elements[0].type->make_group(input);
     position = positions([](const Point& x) { return x; });
-    history.assign(static_cast<std::size_t>(group->history_size() * group->padded_size()), 0.0);
-    std::vector<double> initial(group->history_size());
-    group->initialize_history(initial);
-    for (int c = 0; c < group->history_size(); ++c)
-      std::fill_n(history.begin() + c * group->padded_size(), group->padded_size(), initial[c]);
+    history = group->initial_history();
   }
 
   /// Nodal array of the motion x = map(X), with a scratch node at the end.
