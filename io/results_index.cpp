@@ -14,6 +14,7 @@ FieldBlock index_block(const Hdf5File& file, const std::string& group, const std
     const std::string path = group + "/" + name;
     block.fields.push_back({name, file.extent(path), file.bytes_per_value(path)});
   }
+  sort_fields(block);
   return block;
 }
 
@@ -32,6 +33,10 @@ FrameRecord index_frame(const Hdf5File& file, const std::string& path) {
 }
 
 }  // namespace
+
+void sort_fields(FieldBlock& block) {
+  std::sort(block.fields.begin(), block.fields.end(), [](const auto& a, const auto& b) { return a.name < b.name; });
+}
 
 std::string step_path(std::int32_t step) { return fmt::format("/step_{}", step + 1); }
 

@@ -49,6 +49,9 @@ struct ResultsIndex {
   std::vector<FrameRecord> frames;  // in time order
 };
 
+/// Fields by name: one order, whether they were just written or read back.
+void sort_fields(FieldBlock& block);
+
 /// Reads the index of a file. @throws SystemError.
 ResultsIndex index_results(const Hdf5File& file);
 

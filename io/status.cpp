@@ -1,5 +1,6 @@
 #include "status.hpp"
 
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -15,10 +16,22 @@ namespace balocco {
 
 namespace {
 
-std::FILE* open(const std::string& path, bool append) {
+constexpr double seconds_between_shows = 0.25;
+
+std::FILE* open_text(const std::string& path, bool append) {
   std::FILE* file = std::fopen(path.c_str(), append ? "a" : "w");
   if (file == nullptr) throw SystemError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
   return file;
+}
+
+/// Whether somebody watches. Open MPI gives its ranks a terminal of its own even where mpirun writes to a file, so that the
+/// parent's output has to be one, too.
+bool watched() {
+  if (::isatty(STDOUT_FILENO) != 1) return false;
+  const int parent = ::open(fmt::format("/proc/{}/fd/1", ::getppid()).c_str(), O_WRONLY | O_NOCTTY | O_NONBLOCK);
+  const bool terminal = parent >= 0 && ::isatty(parent) == 1;
+  if (parent >= 0) ::close(parent);
+  return terminal;
 }
 
 bool is_static(const Step& step) { return step.procedure == Step::Procedure::static_analysis; }
@@ -34,10 +47,10 @@ std::string duration_text(double seconds) {
 }
 
 Status::Status(const std::string& status_path, const std::string& log_path, const Model& model, bool restarted, bool root)
-    : model_(&model), root_(root), terminal_(::isatty(STDOUT_FILENO) == 1), begin_(std::chrono::steady_clock::now()) {
+    : model_(&model), root_(root), terminal_(watched()), begin_(std::chrono::steady_clock::now()) {
   if (!root_) return;
-  status_ = open(status_path, restarted);
-  log_ = open(log_path, restarted);
+  status_ = open_text(status_path, restarted);
+  log_ = open_text(log_path, restarted);
   for (const ElementTable& table : model.elements) {
     if (table.type->make_group != nullptr) element_count_ += table.size();
   }
@@ -118,7 +131,9 @@ void Status::show(const Progress& progress, bool now) {
   if (!root_) return;
   const Outlook view = outlook(progress);
   const int twentieth = static_cast<int>(20.0 * view.fraction + 1e-9);
-  if (!terminal_ && !now && twentieth <= shown_twentieth_ && !progress.step_finished) return;
+  const bool due = terminal_ ? seconds() - shown_seconds_ >= seconds_between_shows : twentieth > shown_twentieth_;
+  if (!due && !now && !progress.step_finished) return;
+  shown_seconds_ = seconds();
   shown_twentieth_ = std::max(shown_twentieth_, twentieth);
   const Step& step = model_->steps[step_];
   std::string text = fmt::format("Step {} {}: {:3.0f} %, increment {}, time {:.6g} of {:g}, dt {:.4g}", step_ + 1, step.name,

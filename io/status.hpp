@@ -52,6 +52,7 @@ class Status {
   double step_begin_seconds_ = 0.0, step_begin_time_ = 0.0, step_begin_energy_ = 0.0;
   std::int64_t step_begin_increment_ = 0;
   int shown_twentieth_ = 0;
+  double shown_seconds_ = -1e300;
   bool line_open_ = false;  // a progress line waits to be overwritten
 };
 

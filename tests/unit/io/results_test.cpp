@@ -128,8 +128,7 @@ TEST_F(Results, FramesHoldWhatTheAnalysisHad) {
   const auto reaction = file.read("/step_2/frame_1/node/RF");
   const std::size_t rows = model.nodes.id.size();
   ASSERT_EQ(reaction.size(), 3 * rows);
-  for (std::size_t row = 0; row + 1 < rows; ++row) EXPECT_FLOAT_EQ(reaction[3 * row + 1], 100.0 * row + 1 + 2.5);
-  EXPECT_EQ(reaction[3 * (rows - 1) + 1], 0.0) << "the loose node is on no rank";
+  for (std::size_t row = 0; row < rows; ++row) EXPECT_FLOAT_EQ(reaction[3 * row + 1], 100.0 * row + 1 + 2.5);
   EXPECT_EQ(file.bytes_per_value("/step_2/frame_1/node/RF"), 4u);
   EXPECT_FALSE(file.exists("/step_2/frame_1/node/CPRESS"));
 
