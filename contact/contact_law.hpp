@@ -22,11 +22,16 @@ struct PenaltyParameters {
 template <class T>
 struct ContactForce {
   bool closed = false;
-  T gap{};
   T pressure{};  // normal force, >= 0
   Vector3<T> normal{}, friction{};
   double tangential_stiffness = 0.0;
 };
+
+inline void open(ContactPoint& point) {
+  point.multiplier = 0.0;
+  point.closed = 0.0;
+  point.anchor = {};
+}
 
 /// Tangential part of the force: spring from the anchor, cut at Coulomb's limit; slipping drags the anchor along. Work
 /// done in slipping, limit x slip, goes to the dissipation (backward Euler).
@@ -60,14 +65,16 @@ void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, 
 template <class T>
 ContactForce<T> contact_force(const RigidSurface& surface, const PenaltyParameters& parameters, const Vector3<T>& place,
                               ContactPoint& point) {
-  const SurfacePoint<T> nearest = surface.nearest(place);
   ContactForce<T> force;
-  force.gap = nearest.distance;
+  const Vector3<double> values{value_of(place[0]), value_of(place[1]), value_of(place[2])};
+  if (point.multiplier == 0.0 && surface.surely_outside(values)) {
+    open(point);
+    return force;
+  }
+  const SurfacePoint<T> nearest = surface.nearest(place);
   const T pressure = point.multiplier - parameters.stiffness * nearest.distance;
   if (!(value_of(pressure) > 0.0)) {
-    point.multiplier = 0.0;
-    point.closed = 0.0;
-    point.anchor = {};
+    open(point);
     return force;
   }
   force.closed = true;

@@ -1,5 +1,6 @@
 #include "profile.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -33,6 +34,7 @@ Profile::Profile(std::span<const ProfileSegment> segments) {
   corners_.resize(pieces_.size() + 1);
   for (std::size_t i = 1; i < pieces_.size(); ++i) corners_[i] = make_corner(i - 1, i, pieces_[i].start);
   join_ends();
+  find_top();
 }
 
 Profile::Piece Profile::make_piece(const ProfileSegment& segment) {
@@ -88,6 +90,29 @@ void Profile::join_ends() {
   corners_.back() = {last.end, normal_at(last, last.end), false, true};
 }
 
+/// Between parallel ends that run on to both sides the body lies below the highest point of the chain.
+void Profile::find_top() {
+  const Piece& first = pieces_.front();
+  const Piece& last = pieces_.back();
+  if (!std::isinf(first.from) || !std::isinf(last.to) || first.normal != last.normal) return;
+  up_ = first.normal;
+  double top = dot(up_, first.start), extent = std::hypot(first.start[0], first.start[1]);
+  for (const Piece& piece : pieces_) {
+    top = std::max(top, dot(up_, piece.end));
+    extent = std::max(extent, std::hypot(piece.end[0], piece.end[1]));
+    if (piece.arc && sweeps(piece, up_)) top = std::max(top, dot(up_, piece.centre) + piece.radius);
+  }
+  top_ = top + 1e-12 * extent;  // far above round-off in the height of a point
+}
+
+/// Whether the direction of `arm` from the centre lies within the arc.
+bool Profile::sweeps(const Piece& arc, const PlanePoint& arm) {
+  if (arc.full_circle) return true;
+  const bool past_start = -arc.side * cross(arc.start - arc.centre, arm) >= 0.0;
+  const bool before_end = -arc.side * cross(arm, arc.end - arc.centre) >= 0.0;
+  return arc.more_than_half ? past_start || before_end : past_start && before_end;
+}
+
 /// Square of the distance; `end` tells what is nearest: 0 the piece's inside, -1 its start, 1 its end.
 double Profile::distance_to(const Piece& piece, const PlanePoint& point, int& end) {
   end = 0;
@@ -101,11 +126,8 @@ double Profile::distance_to(const Piece& piece, const PlanePoint& point, int& en
     end = along < piece.from ? -1 : 1;
     return end < 0 ? square_of(arm) : square_of(point - piece.end);
   }
-  const PlanePoint arm = point - piece.centre, a = piece.start - piece.centre, b = piece.end - piece.centre;
-  const double past_start = -piece.side * cross(a, arm), before_end = -piece.side * cross(arm, b);
-  const bool within =
-      piece.more_than_half ? past_start >= 0.0 || before_end >= 0.0 : past_start >= 0.0 && before_end >= 0.0;
-  if (within || piece.full_circle) {
+  const PlanePoint arm = point - piece.centre;
+  if (sweeps(piece, arm)) {
     const double height = std::sqrt(square_of(arm)) - piece.radius;
     return height * height;
   }

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -33,6 +34,9 @@ class Profile {
   explicit Profile(std::span<const ProfileSegment> segments);
 
   bool empty() const { return pieces_.empty(); }
+
+  /// True only if the point lies above everything: told without a search for open roads whose two ends are parallel.
+  bool surely_outside(const PlanePoint& point) const { return point[0] * up_[0] + point[1] * up_[1] > top_; }
 
   template <class T>
   ProfilePoint<T> nearest(const std::array<T, 2>& point) const {
@@ -67,9 +71,11 @@ class Profile {
 
   static Piece make_piece(const ProfileSegment& segment);
   static PlanePoint normal_at(const Piece& piece, const PlanePoint& point);
+  static bool sweeps(const Piece& arc, const PlanePoint& arm);
   static double distance_to(const Piece& piece, const PlanePoint& point, int& end);
   Corner make_corner(std::size_t before, std::size_t after, const PlanePoint& at) const;
   void join_ends();
+  void find_top();
   Feature find(const PlanePoint& point) const;
 
   template <class T>
@@ -100,7 +106,9 @@ class Profile {
   }
 
   std::vector<Piece> pieces_;
-  std::vector<Corner> corners_;  // corner i is the start of piece i; one more ends the last
+  std::vector<Corner> corners_;                           // corner i is the start of piece i; one more ends the last
+  PlanePoint up_{};                                       // common outward normal of both ends
+  double top_ = std::numeric_limits<double>::infinity();  // how far the chain reaches along `up_`
 };
 
 }  // namespace balocco

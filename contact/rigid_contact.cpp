@@ -165,11 +165,12 @@ RigidContact::Output RigidContact::output(std::int32_t point, const double* posi
   const MasterFrame frame(master);
   const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[point]));
   ContactPoint scratch = state;
-  const auto contact = contact_force(surface_, parameters(point), frame.inverse * arm, scratch);
+  const auto place = frame.inverse * arm;
+  const auto contact = contact_force(surface_, parameters(point), place, scratch);
   Output output;
-  output.gap = contact.gap;
+  output.gap = surface_.nearest(place).distance;
   output.slip = state.slip;
-  if (!contact.closed) return output;
+  if (!contact.closed || state.closed == 0.0) return output;
   const double square = dot(contact.friction, contact.friction);
   output.pressure = contact.pressure / area_[point];
   output.shear = std::sqrt(square) / area_[point];

@@ -66,7 +66,8 @@ class RigidContact {
   double augment(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points) const;
 
   /// Gap, pressure and tangential traction of a point, and its forces (global directions, on the slave), for output.
-  /// The energy is what both springs hold.
+  /// The energy is what both springs hold. A point that `state` says is open has no force, wherever it is: its pair may
+  /// not be active.
   struct Output {
     double gap = 0.0, pressure = 0.0, shear = 0.0, slip = 0.0;
     Point normal_force{}, friction_force{};

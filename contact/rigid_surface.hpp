@@ -1,6 +1,8 @@
 // An analytical rigid surface in the frame of its body: signed distance and outward normal in space.
 #pragma once
 
+#include <cmath>
+
 #include "math/tensor.hpp"
 #include "profile.hpp"
 
@@ -25,6 +27,13 @@ class RigidSurface {
   }
 
   bool empty() const { return profile_.empty(); }
+
+  /// True only if the distance is positive; far cheaper than the distance.
+  bool surely_outside(const Vector3<double>& place) const {
+    const Vector3<double> arm{place[0] - origin_[0], place[1] - origin_[1], place[2] - origin_[2]};
+    const double first = along(0, arm), third = along(2, arm);
+    return profile_.surely_outside({revolved_ ? std::sqrt(first * first + third * third) : first, along(1, arm)});
+  }
 
   /// `place` in the body frame. T: double or Dual.
   template <class T>

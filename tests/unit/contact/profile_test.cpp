@@ -208,6 +208,21 @@ TEST(Profile, AtASharpCornerTheDerivativeIsThatOfTheDistanceToIt) {
   EXPECT_DOUBLE_EQ(at.distance.derivative[1], at.normal[1].value);
 }
 
+TEST(Profile, WhatIsSurelyOutsideIsOutside) {
+  const Profile road(road_with_obstacle());
+  EXPECT_TRUE(road.surely_outside({0, 25.001}));
+  EXPECT_FALSE(road.surely_outside({0, 25.0}));
+  EXPECT_FALSE(road.surely_outside({100, 20.0}));  // above the road, but the obstacle is higher
+  const Profile hill(std::vector{line({-9, 0}, {-3, 0}), arc({-3, 0}, {3, 0}, {0, 0}, false), line({3, 0}, {9, 0})});
+  EXPECT_FALSE(hill.surely_outside({0, 3.0}));
+  EXPECT_TRUE(hill.surely_outside({0, 3.001}));
+  const Profile step(std::vector{line({-9, 0}, {0, 0}), line({0, 0}, {0, -5}), line({0, -5}, {9, -5})});
+  EXPECT_TRUE(step.surely_outside({5, 0.001}));
+  const Profile roof(
+      std::vector{line({-9, -9}, {0, 0}), line({0, 0}, {9, -9})});  // ends that are not parallel: no bound
+  EXPECT_FALSE(roof.surely_outside({0, 100.0}));
+}
+
 TEST(Profile, TiesGoToTheLowerPiece) {
   const Profile ditch(std::vector{line({0, 5}, {0, 0}), line({0, 0}, {4, 0}), line({4, 0}, {4, 5})});
   const auto middle = ditch.nearest<double>({2.0, 3.0});

@@ -146,9 +146,11 @@ TEST(RigidContact, FrictionlessForceIsTheSlopeOfTheEnergy) {
       plus[i] += h;
       minus[i] -= h;
       contact.place(plus);
-      const double above = contact.pair.output(0, contact.position.data(), contact.master, {}).spring_energy;
+      const double above =
+          contact.pair.output(0, contact.position.data(), contact.master, {.closed = 1.0}).spring_energy;
       contact.place(minus);
-      const double below = contact.pair.output(0, contact.position.data(), contact.master, {}).spring_energy;
+      const double below =
+          contact.pair.output(0, contact.position.data(), contact.master, {.closed = 1.0}).spring_energy;
       // Central difference of a nearly quadratic energy of size 1e3: round-off 1e-13 * 1e3 / 1e-5.
       EXPECT_NEAR(force[i], -(above - below) / (2 * h), 1e-5);
     }
@@ -432,11 +434,20 @@ TEST(RigidContact, OutputTellsPressureShearAndSlip) {
   EXPECT_NEAR(out.spring_energy, 0.5 * contact.k() * (1e-4 + tangential * tangential), 1e-13);
 }
 
+// As the points of a pair that is not active.
+TEST(RigidContact, AnOpenPointHasNoForceWhereverItIs) {
+  Contact contact;
+  contact.place({0, 0, -0.01});
+  const auto out = contact.pair.output(0, contact.position.data(), contact.master, {});
+  EXPECT_NEAR(out.gap, -0.01, 1e-15);
+  EXPECT_EQ(out.pressure, 0.0);
+  EXPECT_EQ(out.spring_energy, 0.0);
+}
+
 TEST(RigidContact, ResultantSumsOverTheSurface) {
   Contact contact;
   const double depth = 0.01;
   contact.master.position[2] += depth;
-  contact.points.assign(4, {});
   contact.force();
   const auto sum =
       contact.pair.resultant(Communicator(MPI_COMM_SELF), contact.position.data(), contact.master, contact.points);
