@@ -18,10 +18,11 @@ Vector3<double> vector(const Point& point) {
   return {point};
 }
 
+/// A rotation carries the velocity of its axis along.
 Vector3<double> velocity_at(const InitialVelocity& initial, const Vector3<double>& position) {
-  if (initial.kind == InitialVelocity::Kind::translation) return vector(initial.velocity);
-  const auto arm = position - vector(initial.axis_point);
-  return initial.angular_speed * cross(vector(initial.axis_direction), arm);
+  const auto axis = vector(initial.velocity);
+  if (initial.kind == InitialVelocity::Kind::translation) return axis;
+  return axis + initial.angular_speed * cross(vector(initial.axis_direction), position - vector(initial.axis_point));
 }
 
 Vector3<double> spin_of(const InitialVelocity& initial) {
@@ -36,8 +37,8 @@ void apply_to_bodies(Analysis& analysis, const InitialVelocity& initial, const s
         !body.nodes.empty() && std::all_of(body.nodes.begin(), body.nodes.end(),
                                            [&](const RigidNode& carried) { return in_set[carried.node]; });
     if (!all_nodes && !in_set[analysis.model.rigid_bodies[i].reference_node]) continue;
-    body.velocity = velocity_at(initial, vector(body.position)).component;
-    body.angular_velocity = spin_of(initial).component;
+    body.velocity = (vector(body.velocity) + velocity_at(initial, vector(body.position))).component;
+    body.angular_velocity = (vector(body.angular_velocity) + spin_of(initial)).component;
   }
 }
 
@@ -89,7 +90,7 @@ void apply_initial_velocities(Analysis& analysis) {
       const auto node = analysis.domain.local_node[row];
       if (node < 0) continue;
       const auto velocity = velocity_at(initial, vector(&state.position[4 * node]));
-      std::copy_n(velocity.component.data(), 3, &state.velocity[4 * node]);
+      for (int c = 0; c < 3; ++c) state.velocity[4 * node + c] += velocity[c];
     }
     apply_to_bodies(analysis, initial, in_set);
   }
