@@ -123,34 +123,44 @@ ParallelFile::ParallelFile(const std::string& path, const Communicator& communic
   } else {
     file_ = Hdf5Id(H5Fopen(path.c_str(), mode == Mode::read ? H5F_ACC_RDONLY : H5F_ACC_RDWR, access));
   }
-  agree(file_.valid(), mode == Mode::create ? "be created" : "be opened");
+  expect(file_.valid(), mode == Mode::create ? "be created" : "be opened");
+  agree();
 }
 
-void ParallelFile::agree(bool succeeded, const std::string& action) const {
-  if (communicator_->any(!succeeded)) throw SystemError(fmt::format("{}: file cannot {}", path_, action));
+void ParallelFile::expect(bool succeeded, const std::string& action) {
+  if (!succeeded && failure_.empty()) failure_ = action;
+}
+
+void ParallelFile::agree() {
+  if (!communicator_->any(!failure_.empty())) return;
+  communicator_->together([&] {
+    if (!failure_.empty()) throw SystemError(fmt::format("{}: file cannot {}", path_, failure_));
+  });
 }
 
 void ParallelFile::close() {
   const bool flushed = H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0;
   const bool closed = file_.close();
-  agree(flushed && closed, "be written (disk full?)");
+  expect(flushed && closed, "be written (disk full?)");
+  agree();
 }
 
 Hdf5Id ParallelFile::create_unnamed_group() {
   Hdf5Id group(H5Gcreate_anon(file_, group_properties(), H5P_DEFAULT));
-  agree(group.valid(), "take a new group");
+  expect(group.valid(), "take a new group");
   return group;
 }
 
 Hdf5Id ParallelFile::create_group(hid_t parent, const std::string& name) {
   Hdf5Id group(H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, group_properties(), H5P_DEFAULT));
-  agree(group.valid(), "take the group " + name);
+  expect(group.valid(), "take the group " + name);
   return group;
 }
 
 void ParallelFile::link(const Hdf5Id& group, const std::string& path) {
-  agree(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "be written (disk full?)");
-  agree(H5Olink(group, file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, "take the group " + path);
+  expect(H5Fflush(file_, H5F_SCOPE_GLOBAL) >= 0, "be written (disk full?)");
+  agree();
+  expect(H5Olink(group, file_, path.c_str(), H5P_DEFAULT, H5P_DEFAULT) >= 0, "take the group " + path);
 }
 
 void ParallelFile::write(hid_t parent, const std::string& name, const RowExchange& exchange, std::span<const double> slab,
@@ -161,7 +171,7 @@ void ParallelFile::write(hid_t parent, const std::string& name, const RowExchang
   const Hdf5Id space(H5Screate_simple(static_cast<int>(total.size()), total.data(), nullptr));
   const Hdf5Id properties = dataset_properties(total, single ? 4 : 8, layout.compressed);
   const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), stored_type, space, H5P_DEFAULT, properties, H5P_DEFAULT));
-  agree(dataset.valid(), "take " + name);
+  expect(dataset.valid(), "take " + name);
   if (exchange.total() == 0) return;
   const Hdf5Id memory = select_slab(space, exchange, total);
   // Converted here: a type conversion inside HDF5 would make the write independent, which compressed data forbid.
@@ -169,31 +179,34 @@ void ParallelFile::write(hid_t parent, const std::string& name, const RowExchang
   const void* values = single ? static_cast<const void*>(narrowed.data()) : slab.data();
   const herr_t status =
       H5Dwrite(dataset, single ? H5T_NATIVE_FLOAT : H5T_NATIVE_DOUBLE, memory, space, collective_transfer(), values);
-  agree(status >= 0, "take " + name + " (disk full?)");
+  expect(status >= 0, "take " + name + " (disk full?)");
 }
 
 std::vector<double> ParallelFile::read(const std::string& path, const RowExchange& exchange, int columns) {
   const Hdf5Id dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
-  agree(dataset.valid(), "give " + path);
+  expect(dataset.valid(), "give " + path);
+  agree();
   const Hdf5Id space(H5Dget_space(dataset));
   Extent total(H5Sget_simple_extent_ndims(space));
   H5Sget_simple_extent_dims(space, total.data(), nullptr);
   hsize_t stored_columns = 1;
   for (std::size_t i = 1; i < total.size(); ++i) stored_columns *= total[i];
-  agree(total[0] == static_cast<hsize_t>(exchange.total()) && stored_columns == static_cast<hsize_t>(columns),
-        fmt::format("give {}: its size does not fit this model", path));
+  expect(total[0] == static_cast<hsize_t>(exchange.total()) && stored_columns == static_cast<hsize_t>(columns),
+         fmt::format("give {}: its size does not fit this model", path));
+  agree();
   std::vector<double> slab(exchange.slab_size() * columns);
   if (exchange.total() == 0) return slab;
   const Hdf5Id memory = select_slab(space, exchange, total);
   const herr_t status = H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, collective_transfer(), slab.data());
-  agree(status >= 0, "give " + path);
+  expect(status >= 0, "give " + path);
+  agree();
   return slab;
 }
 
 void ParallelFile::set_scalar(hid_t object, const std::string& name, hid_t stored, hid_t memory, const void* value) {
   const Hdf5Id space(H5Screate(H5S_SCALAR));
   const Hdf5Id attribute(H5Acreate2(object, name.c_str(), stored, space, H5P_DEFAULT, H5P_DEFAULT));
-  agree(attribute.valid() && H5Awrite(attribute, memory, value) >= 0, "take attribute " + name);
+  expect(attribute.valid() && H5Awrite(attribute, memory, value) >= 0, "take attribute " + name);
 }
 
 void ParallelFile::set_attribute(hid_t object, const std::string& name, double value) {

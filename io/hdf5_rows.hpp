@@ -72,15 +72,18 @@ class ParallelFile {
   void set_attribute(hid_t object, const std::string& name, double value);
   void set_attribute(hid_t object, const std::string& name, std::int64_t value);
 
-  /// Throws on every rank if it failed on any.
-  void agree(bool succeeded, const std::string& action) const;
-
  private:
+  /// Remembers the first failure. Objects are made and written by all ranks alike, so that they can go on together until agree().
+  void expect(bool succeeded, const std::string& action);
+  /// Throws on every rank if anything failed on any.
+  void agree();
+
   void set_scalar(hid_t object, const std::string& name, hid_t stored, hid_t memory, const void* value);
 
   std::string path_;
   const Communicator* communicator_;
   Hdf5Id file_;
+  std::string failure_;  // what the file could not do
 };
 
 }  // namespace balocco
