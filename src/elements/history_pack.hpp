@@ -5,7 +5,7 @@
 
 namespace balocco {
 
-inline Pack load_history(const double* address) { return Pack(address, std::experimental::element_aligned); }
-inline void store_history(const Pack& value, double* address) { value.copy_to(address, std::experimental::element_aligned); }
+inline Pack load_unaligned(const double* address) { return Pack(address, std::experimental::element_aligned); }
+inline void store_unaligned(const Pack& value, double* address) { value.copy_to(address, std::experimental::element_aligned); }
 
 }  // namespace balocco

@@ -58,8 +58,8 @@ std::array<Pack, 3> MembraneGroup<corners, points>::viscous_stress(Block& block,
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
 
   const Pack square = metric_determinant(stretch), ratio = square_root(square);
-  const Pack old_ratio = load_history(row(area_ratio_row(point)));
-  store_history(ratio, row(area_ratio_row(point)));
+  const Pack old_ratio = load_unaligned(row(area_ratio_row(point)));
+  store_unaligned(ratio, row(area_ratio_row(point)));
   const Pack rate = 2.0 * inverse_increment * (ratio - old_ratio) / (ratio + old_ratio);
   const Pack pressure = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Layout::viscosity) * rate;
   const Pack contravariant = pressure / square;  // Cauchy stress pressure * 1 pulled back: pressure * C^-1
@@ -71,8 +71,8 @@ std::array<Pack, 3> MembraneGroup<corners, points>::viscous_stress(Block& block,
     Pack strain_rate[3];
     for (int i = 0; i < 3; ++i) {
       const Pack strain = load(block.batch.strain[i] + pack * pack_size);
-      strain_rate[i] = inverse_increment * (strain - load_history(row(strain_row(point) + i)));
-      store_history(strain, row(strain_row(point) + i));
+      strain_rate[i] = inverse_increment * (strain - load_unaligned(row(strain_row(point) + i)));
+      store_unaligned(strain, row(strain_row(point) + i));
     }
     for (int i = 0; i < 3; ++i) {
       const Pack damping = d[3 * i] * strain_rate[0] + d[3 * i + 1] * strain_rate[1] + d[3 * i + 2] * strain_rate[2];
@@ -163,7 +163,7 @@ void MembraneGroup<corners, points>::finish(const Block& block, const ExplicitCy
       scatter_subtract(block.force[pack][i], scatter + i + 1, corners, cycle.force);
     }
     scatter_subtract(on_first, scatter, corners, cycle.force);
-    store_history(load_history(dissipation + element) + block.dissipated[pack], dissipation + element);
+    store_unaligned(load_unaligned(dissipation + element) + block.dissipated[pack], dissipation + element);
 
     const Pack increment = stable_increment(block, pack, cycle);
     if (any_of(increment < Pack(stable.increment)))

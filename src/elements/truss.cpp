@@ -96,20 +96,20 @@ TrussGroup::Pulled TrussGroup::pull(const Batch& batch, std::int32_t first, int 
   const Pack length = load(length_.data() + first + slot);
   const Pack strain = load(batch.strain[0] + slot), stress = load(batch.stress[0] + slot);
   const Pack square = 1.0 + 2.0 * strain, stretch = square_root(square);
-  const Pack old_stretch = load_history(row(stretch_row()));
-  store_history(stretch, row(stretch_row()));
+  const Pack old_stretch = load_unaligned(row(stretch_row()));
+  store_unaligned(stretch, row(stretch_row()));
 
   const Pack rate = 2.0 * inverse_increment * (stretch - old_stretch) / (stretch + old_stretch);
   const Pack viscosity = cycle.linear_bulk_viscosity * std::sqrt(density_ * initial_modulus_) * length;
   Pack viscous = viscosity * rate / square, power = viscosity * rate * rate;
   if (damped()) {
-    const Pack strain_rate = inverse_increment * (strain - load_history(row(strain_row())));
-    store_history(strain, row(strain_row()));
+    const Pack strain_rate = inverse_increment * (strain - load_unaligned(row(strain_row())));
+    store_unaligned(strain, row(strain_row()));
     const Pack damping = damping_beta_ * initial_modulus_ * strain_rate;
     viscous = viscous + damping;
     power = power + damping * strain_rate;
   }
-  store_history(load_history(row(dissipation_row())) + cycle.increment * area_ * (length * power), row(dissipation_row()));
+  store_unaligned(load_unaligned(row(dissipation_row())) + cycle.increment * area_ * (length * power), row(dissipation_row()));
 
   const Pack modulus = 2.0 * load(batch.shear_modulus + slot);
   const Pack inverse_mass = 4.0 / (density_ * length * length);  // A / L * (1 / m + 1 / m)
