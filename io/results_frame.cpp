@@ -47,7 +47,7 @@ void mean_output(const ElementGroup& group, std::string_view variable, std::int3
   std::fill(values.begin(), values.end(), 0.0);
   const int points = group.integration_points();
   std::vector<double> history(group.history_size());
-  group.load_history(element, state.element_history[group_index], history);
+  group.gather_history(element, state.element_history[group_index], history);
   for (int point = 0; point < points; ++point) {
     group.output(variable, element, point, state.position.data(), history,
                  std::span(at_point).first(values.size()));
@@ -101,7 +101,7 @@ std::vector<double> FrameWriter::element_values(const TableRows& rows, const Res
         continue;
       }
       history.resize(group.history_size());
-      group.load_history(element, state.element_history[rows.group_index[g]], history);
+      group.gather_history(element, state.element_history[rows.group_index[g]], history);
       for (int point = 0; point < group.integration_points(); ++point) {
         group.output(variable, element, point, state.position.data(), history,
                      {&*row + static_cast<std::ptrdiff_t>(point) * columns, size});

@@ -202,7 +202,7 @@ EnergyBalance Analysis::energies() const {
     const auto& group = *element_groups[index];
     std::vector<double> history(group.history_size());
     for (std::int32_t e = 0; e < group.size(); ++e) {
-      group.load_history(e, current.element_history[index], history);
+      group.gather_history(e, current.element_history[index], history);
       const auto energy = group.energies(e, current.position.data(), history);
       sums[strain].add(energy.strain);
       sums[hourglass].add(energy.hourglass);

@@ -83,13 +83,13 @@ void StaticSystem::add_element(std::size_t index, std::int32_t element, bool& so
   block_.resize(rigid ? 0 : force_.size() * force_.size());
   old_history_.resize(group.history_size());
   new_history_.resize(group.history_size());
-  group.load_history(element, analysis_.current.element_history[index], old_history_);
+  group.gather_history(element, analysis_.current.element_history[index], old_history_);
   if (!group.linearize(element, analysis_.current.position.data(), old_history_, new_history_, force_, block_)) {
     inverted_element_ = analysis_.model.elements[group.table()].id[group.row(element)];
     sound = false;
     return;
   }
-  group.store_history(element, new_history_, trial_history_[index]);
+  group.scatter_history(element, new_history_, trial_history_[index]);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (int axis = 0; axis < 3; ++axis) {
       const double component = force_[3 * i + axis];

@@ -37,16 +37,16 @@ ElementGroup::ElementGroup(const GroupInput& input)
 std::vector<double> ElementGroup::initial_history() const {
   std::vector<double> own(history_size()), history(own.size() * padded_size_);
   initialize_history(own);
-  for (std::int32_t element = 0; element < padded_size_; ++element) store_history(element, own, history);
+  for (std::int32_t element = 0; element < padded_size_; ++element) scatter_history(element, own, history);
   return history;
 }
 
-void ElementGroup::load_history(std::int32_t element, std::span<const double> group_history, std::span<double> own) const {
+void ElementGroup::gather_history(std::int32_t element, std::span<const double> group_history, std::span<double> own) const {
   for (std::size_t component = 0; component < own.size(); ++component)
     own[component] = group_history[component * padded_size_ + element];
 }
 
-void ElementGroup::store_history(std::int32_t element, std::span<const double> own, std::span<double> group_history) const {
+void ElementGroup::scatter_history(std::int32_t element, std::span<const double> own, std::span<double> group_history) const {
   for (std::size_t component = 0; component < own.size(); ++component)
     group_history[component * padded_size_ + element] = own[component];
 }

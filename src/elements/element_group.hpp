@@ -6,7 +6,7 @@
 // scratch node behind the last real one.
 //
 // The history of a group is a structure of arrays, history[component * padded_size() + element]; functions that look at one
-// element take that element's own history, its components one after the other (load_history, store_history). Reference configuration of every kernel is
+// element take that element's own history, its components one after the other (gather_history, scatter_history). Reference configuration of every kernel is
 // Model::nodes.coordinates (total Lagrangian).
 #pragma once
 
@@ -81,8 +81,8 @@ class ElementGroup {
   /// History of the whole group in the undeformed state.
   std::vector<double> initial_history() const;
   /// Copies the history of one element out of, or into, that of the group.
-  void load_history(std::int32_t element, std::span<const double> group_history, std::span<double> own) const;
-  void store_history(std::int32_t element, std::span<const double> own, std::span<double> group_history) const;
+  void gather_history(std::int32_t element, std::span<const double> group_history, std::span<double> own) const;
+  void scatter_history(std::int32_t element, std::span<const double> own, std::span<double> group_history) const;
 
   /// Lumped mass of each node of an element (unscaled sum = density x reference volume).
   virtual void lumped_mass(std::int32_t element, std::span<double> mass) const = 0;
