@@ -33,10 +33,10 @@ class Group : public ElementGroup {
     return variable == "STH" && history_size_ == 1 ? 1 : 0;
   }
   /// S: first history value + 10 x point + component.
-  void output(std::string_view variable, std::int32_t element, int point, const double*, std::span<const double> history,
+  void output(std::string_view variable, std::int32_t, int point, const double*, std::span<const double> history,
               std::span<double> values) const override {
     for (std::size_t c = 0; c < values.size(); ++c) {
-      values[c] = history[element] + (variable == "S" ? 10.0 * point + static_cast<double>(c) : 0.25);
+      values[c] = history[0] + (variable == "S" ? 10.0 * point + static_cast<double>(c) : 0.25);
     }
   }
   int integration_points() const override { return 2; }
