@@ -6,22 +6,13 @@
 #include <array>
 
 #include "elements/hexahedron.hpp"
+#include "elements/record_reference.hpp"
 #include "elements/reduced_brick_reference.hpp"
 #include "materials/stretch.hpp"
 #include "math/pack.hpp"
 #include "math/tensor.hpp"
 
 namespace balocco {
-
-/// Records of whole packs: component k of lane l at data[pack_size * k + l].
-struct PackReference {
-  const double* data;
-  Pack operator[](int k) const { return load(data + pack_size * k); }
-};
-struct LaneReference {
-  const double* data;  // of the lane's pack, moved on by the lane
-  double operator[](int k) const { return data[pack_size * k]; }
-};
 
 /// F = sum_k c_k (x) beta_k.
 template <class T, class Reference>

@@ -38,7 +38,8 @@ struct BrickStability {
     const double inverse_density = density > 0.0 ? 1.0 / density : 0.0;
     const T omega_square = inverse_density * stiffness;
     const T rate = inverse_density * (viscous_slope * (c.jacobian * dilatation)) + damping_beta * omega_square;
-    return select(c.jacobian > 0.0, neutral_increment(omega_square, rate), T(0.0));  // inverted or not a number: 0
+    const T increment = neutral_increment(omega_square, rate);
+    return select(c.jacobian > 0.0 && increment > 0.0, increment, T(0.0));  // inverted or not a number: 0
   }
 
  private:

@@ -1,6 +1,7 @@
 // Small models of one solid element type for the tests: nodes, one table, one section, one group on one rank.
 #pragma once
 
+#include <Eigen/Dense>
 #include <array>
 #include <cmath>
 #include <functional>
@@ -8,8 +9,6 @@
 #include <random>
 #include <string>
 #include <vector>
-
-#include <Eigen/Dense>
 
 #include "elements/element_type.hpp"
 #include "math/exact_sum.hpp"
@@ -86,8 +85,8 @@ struct SolidCase {
   }
 };
 
-inline SolidCase make_case(const SolidOptions& options, std::vector<Point> points, std::vector<std::int32_t> connectivity,
-                           std::int32_t interface_count = 0) {
+inline SolidCase make_case(const SolidOptions& options, std::vector<Point> points,
+                           std::vector<std::int32_t> connectivity, std::int32_t interface_count = 0) {
   SolidCase c;
   c.model.nodes.coordinates = points;
   for (std::size_t i = 0; i < points.size(); ++i) c.model.nodes.id.push_back(static_cast<std::int64_t>(i) + 1);
@@ -123,7 +122,8 @@ inline SolidCase make_case(const SolidOptions& options, std::vector<Point> point
   return c;
 }
 
-/// A block of nx x ny x nz bricks (or twice as many wedges) on [0, size], interior nodes moved at random by `skew` cells.
+/// A block of nx x ny x nz bricks (or twice as many wedges) on [0, size], interior nodes moved at random by `skew`
+/// cells.
 struct Block {
   std::array<int, 3> cells{1, 1, 1};
   Point size{1.0, 1.0, 1.0};
@@ -152,8 +152,9 @@ inline SolidCase make_block(const SolidOptions& options, const Block& block, std
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
       for (int i = 0; i < nx; ++i) {
-        const std::array<int, 8> hex{node(i, j, k),     node(i + 1, j, k),     node(i + 1, j + 1, k),     node(i, j + 1, k),
-                                     node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)};
+        const std::array<int, 8> hex{
+            node(i, j, k),     node(i + 1, j, k),     node(i + 1, j + 1, k),     node(i, j + 1, k),
+            node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)};
         const std::vector<int> order = options.type == "C3D6" ? std::vector<int>{0, 1, 2, 4, 5, 6, 0, 2, 3, 4, 6, 7}
                                                               : std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7};
         for (const int local : order) connectivity.push_back(hex[local]);
@@ -162,7 +163,8 @@ inline SolidCase make_block(const SolidOptions& options, const Block& block, std
 }
 
 /// x = A X + b as a map for SolidCase::move.
-inline std::function<Point(const Point&)> affine(const Eigen::Matrix3d& a, const Eigen::Vector3d& b = Eigen::Vector3d::Zero()) {
+inline std::function<Point(const Point&)> affine(const Eigen::Matrix3d& a,
+                                                 const Eigen::Vector3d& b = Eigen::Vector3d::Zero()) {
   return [a, b](const Point& p) {
     const Eigen::Vector3d x = a * Eigen::Vector3d(p[0], p[1], p[2]) + b;
     return Point{x(0), x(1), x(2)};

@@ -1,0 +1,23 @@
+// C3D8: the fully integrated brick.
+#include "elements/full_solid.hpp"
+#include "elements/solid_faces.hpp"
+
+namespace balocco {
+
+namespace {
+
+std::unique_ptr<ElementGroup> make_group(const GroupInput& input) {
+  return std::make_unique<FullSolid<HexahedronShape>>(input);
+}
+
+const RegisterElement registered({.name = "C3D8",
+                                  .shape = Shape::hexahedron,
+                                  .nodes = HexahedronShape::nodes,
+                                  .integration_points = HexahedronShape::points,
+                                  .section = Section::Kind::solid,
+                                  .faces = hexahedron_faces(),
+                                  .make_group = make_group});
+
+}  // namespace
+
+}  // namespace balocco
