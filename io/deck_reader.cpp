@@ -91,12 +91,12 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
     run_phase(builder, tasks, phase);
   }
   throw_if_wrong(diagnostics, tokens.files);
-  finish_output(builder);
-  throw_if_wrong(diagnostics, tokens.files);
   if (auto errors = check_model(builder.model); !errors.empty()) {
     errors.resize(std::min(errors.size(), Diagnostics::greatest_number_of_errors));
     throw InputError(std::move(errors));
   }
+  finish_output(builder);  // asks the elements, so the model must be sound
+  throw_if_wrong(diagnostics, tokens.files);
   return {std::move(builder.model), diagnostics.warnings(tokens.files)};
 }
 

@@ -264,9 +264,10 @@ std::int64_t Row::integer(int field, const char* what) {
 }
 
 void Row::at_most(int fields) {
-  if (size() > fields) {
-    error(fmt::format("{} fields, but this keyword knows only {} here (field {} is '{}'); remove the rest", size(), fields,
-                      fields + 1, text(fields)));
+  for (int field = fields; field < size(); ++field) {
+    if (!has(field)) continue;
+    error(fmt::format("field {} ('{}') is not known: the line has at most {} here; remove it", field + 1, text(field), fields));
+    return;
   }
 }
 

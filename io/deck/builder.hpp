@@ -63,6 +63,9 @@ class Builder {
   std::set<std::int32_t> unsorted_node_sets;
   std::set<std::int32_t> absolute_amplitudes;  // *AMPLITUDE, VALUE=ABSOLUTE: magnitudes that refer to them become 1
   NodeSystem node_system;
+  std::set<std::size_t> without_field, without_history;  // steps that asked for no output, FREQUENCY=0
+  std::map<std::string, std::set<std::int32_t>> contact_pair_sets;  // *CONTACT PAIR, CPSET=
+  std::map<std::int32_t, double> slip_tolerance;                    // interaction -> *FRICTION, SLIP TOLERANCE
   std::vector<std::pair<std::string, Location>> asked_element_variables;  // by name, to be checked against the elements
   std::unordered_map<std::int32_t, std::int32_t> body_of_reference;  // reference node -> Model::rigid_bodies
   std::vector<BoundaryCondition> initial_boundary;                   // *BOUNDARY before the first step

@@ -4,8 +4,10 @@
 #include <algorithm>
 
 #include "deck/builder.hpp"
+#include "deck/geometry.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
+#include "elements/element_type.hpp"
 
 namespace balocco::deck {
 
@@ -34,6 +36,13 @@ void read_friction(Builder& builder, const Block& block) {
   if (row.ok() && coefficient < 0.0) row.error(fmt::format("coefficient {} must not be negative; correct it", coefficient));
   if (block.lines.size() > 1) builder.error(block, block.lines[1].location, "tables of friction are not supported; give one coefficient");
   current(builder).friction = coefficient;
+  if (block.has("SLIP TOLERANCE")) {
+    const double tolerance = block.real("SLIP TOLERANCE", 0.0);
+    if (!(tolerance > 0.0) || block.has("ELASTIC SLIP")) {
+      return builder.error(block, block.location, "SLIP TOLERANCE must be positive and stand without ELASTIC SLIP; correct it");
+    }
+    builder.slip_tolerance[static_cast<std::int32_t>(builder.model.interactions.size()) - 1] = tolerance;
+  }
   if (block.has("ELASTIC SLIP")) {
     current(builder).elastic_slip = block.real("ELASTIC SLIP", 0.0);
     if (!(*current(builder).elastic_slip > 0.0)) builder.error(block, block.location, "ELASTIC SLIP must be positive; correct it");
@@ -75,6 +84,28 @@ void activate(std::vector<std::int32_t>& active, std::int32_t pair) {
   std::sort(active.begin(), active.end());
 }
 
+/// SLIP TOLERANCE is a fraction of the mean edge of the slave's faces, as in Abaqus.
+void apply_slip_tolerance(Builder& builder, std::int32_t pair) {
+  const auto& [slave, master, interaction, first_step, location] = builder.model.contact_pairs[pair];
+  const auto tolerance = builder.slip_tolerance.find(interaction);
+  if (tolerance == builder.slip_tolerance.end() || builder.model.interactions[interaction].elastic_slip) return;
+  double sum = 0.0;
+  std::size_t edges = 0;
+  for (const auto& face : builder.model.surfaces[slave].faces) {
+    const auto& table = builder.model.elements[face.element.table];
+    const auto& corners = table.type->faces[face.face];
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const auto at = [&](std::size_t corner) {
+        return builder.model.nodes.coordinates[table.connectivity[face.element.row * table.type->nodes + corners[corner]]];
+      };
+      sum += norm(subtract(at((k + 1) % corners.size()), at(k)));
+      ++edges;
+    }
+  }
+  // A surface of nodes has no edges: the automatic elastic slip stays.
+  if (edges > 0) builder.model.interactions[interaction].elastic_slip = tolerance->second * sum / static_cast<double>(edges);
+}
+
 /// Adds the pair, or in a step takes up the one that is known (a deck may repeat its pairs for the explicit steps).
 void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t interaction) {
   const auto surfaces = surfaces_of(builder, block, row);
@@ -98,6 +129,8 @@ void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t inter
     const auto step = builder.in_step ? static_cast<std::int32_t>(builder.model.steps.size()) - 1 : 0;
     builder.model.contact_pairs.push_back({(*surfaces)[0], (*surfaces)[1], interaction, step, row.location()});
   }
+  if (block.has("CPSET")) builder.contact_pair_sets[block.value("CPSET")].insert(pair);
+  apply_slip_tolerance(builder, pair);
   if (builder.in_step) activate(builder.model.steps.back().active_contact_pairs, pair);
 }
 
@@ -145,14 +178,14 @@ void read_model_change(Builder& builder, const Block& block) {
 }
 
 const RegisterKeyword interaction{{"SURFACE INTERACTION", Phase::definitions, Place::anywhere, {required(name("NAME"))}, read_interaction}};
-const RegisterKeyword friction{{"FRICTION", Phase::definitions, Place::anywhere, {real("ELASTIC SLIP")}, read_friction,
+const RegisterKeyword friction{{"FRICTION", Phase::definitions, Place::anywhere, {real("ELASTIC SLIP"), real("SLIP TOLERANCE")}, read_friction,
                                 "SURFACE INTERACTION"}};
 const RegisterKeyword behavior{{"SURFACE BEHAVIOR", Phase::definitions, Place::anywhere,
                                 {choice("PRESSURE-OVERCLOSURE", {"HARD"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
                                 read_surface_behavior, "SURFACE INTERACTION"}};
 const RegisterKeyword pair{{"CONTACT PAIR", Phase::history, Place::anywhere,
                             {required(name("INTERACTION")), choice("TYPE", {"NODE TO SURFACE"}),
-                             choice("MECHANICAL CONSTRAINT", {"PENALTY"}), choice("OP", {"ADD", "DELETE"})},
+                             choice("MECHANICAL CONSTRAINT", {"PENALTY"}), choice("OP", {"ADD", "DELETE"}), name("CPSET")},
                             read_pair}};
 const RegisterKeyword change{{"MODEL CHANGE", Phase::history, Place::step,
                               {required(choice("TYPE", {"CONTACT PAIR"})), flag("ADD"), flag("REMOVE")}, read_model_change}};

@@ -154,13 +154,21 @@ void read_boundary(Builder& builder, const Block& block) {
   }
 }
 
+/// OP=NEW: loads of earlier steps go to zero, in a static step gradually, as in Abaqus.
+template <class Loads>
+void take_away(const Builder& builder, Loads& loads) {
+  for (auto& load : loads) {
+    if (builder.draft.said_here(load)) continue;
+    load.magnitude = 0.0;
+    load.amplitude = -1;
+  }
+}
+
 void read_concentrated(Builder& builder, const Block& block) {
   auto& loads = current(builder).concentrated_loads;
   auto& index = builder.draft.concentrated_of;
   if (block.value("OP") == "NEW" && !builder.draft.concentrated_renewed) {
-    std::erase_if(loads, [&](const ConcentratedLoad& load) { return !builder.draft.said_here(load); });
-    index.clear();
-    for (std::size_t row = 0; row < loads.size(); ++row) index[std::int64_t{loads[row].node} * 6 + loads[row].dof] = row;
+    take_away(builder, loads);
     builder.draft.concentrated_renewed = true;
   }
   const auto amplitude = amplitude_of(builder, block);
@@ -195,9 +203,8 @@ void read_concentrated(Builder& builder, const Block& block) {
 void renew_distributed(Builder& builder, const Block& block) {
   if (block.value("OP") != "NEW" || builder.draft.distributed_renewed) return;
   builder.draft.distributed_renewed = true;
-  const auto old = [&](const auto& load) { return !builder.draft.said_here(load); };
-  std::erase_if(current(builder).pressures, old);
-  std::erase_if(current(builder).gravity, old);
+  take_away(builder, current(builder).pressures);
+  take_away(builder, current(builder).gravity);
 }
 
 void set_pressure(Builder& builder, std::int32_t surface, double magnitude, std::int32_t amplitude, Location location) {

@@ -24,11 +24,17 @@ void read_material(Builder& builder, const Block& block) {
   builder.model.materials.push_back(std::move(material));
 }
 
+void no_tables(Builder& builder, const Block& block, Location location) {
+  builder.error(block, location, "tables of temperature or field dependence are not supported; give one set of values");
+}
+
 void read_density(Builder& builder, const Block& block) {
   if (block.lines.empty()) return builder.error(block, block.location, "the density is missing; add a data line");
   Row row(builder, block, block.lines[0]);
   const double density = row.real(0, "density");
-  row.at_most(1);
+  if (row.has(1)) row.real(1, "temperature");  // one line holds for all temperatures
+  row.at_most(2);
+  if (block.lines.size() > 1) no_tables(builder, block, block.lines[1].location);
   if (row.ok() && !(density > 0.0)) row.error(fmt::format("density {} must be positive; correct it", density));
   current(builder).density = density;
 }
@@ -73,6 +79,17 @@ const MaterialLaw* chosen_law(Builder& builder, const Block& block) {
 
 bool within(const ParameterSpec& spec, double value) { return value > spec.minimum && value < spec.maximum; }
 
+/// Abaqus takes D1 = 0 for incompressible; no element here is, so a bulk modulus is put in its place.
+void warn_if_incompressible(Builder& builder, const Block& block, const MaterialLaw& law) {
+  if (block.keyword != "HYPERELASTIC") return;
+  for (std::size_t i = 0; i < law.parameters.size(); ++i) {
+    const ParameterSpec& spec = law.parameters[i];
+    if (spec.name.starts_with('D') && current(builder).parameters[i] == 0.0) {
+      builder.warning(block, block.location, fmt::format("{} is zero or left out ({})", spec.name, spec.description));
+    }
+  }
+}
+
 void read_law(Builder& builder, const Block& block) {
   const MaterialLaw* law = chosen_law(builder, block);
   if (law == nullptr) return;
@@ -106,11 +123,11 @@ void read_law(Builder& builder, const Block& block) {
     material.parameters.push_back(value);
     ++field;
   }
-  row->at_most(field);
-  if (line + 1 < block.lines.size()) {
-    builder.error(block, block.lines[line + 1].location,
-                  "tables of temperature or field dependence are not supported; give one set of parameters");
-  }
+  advance();
+  if (row->has(field)) row->real(field, "temperature");  // one set holds for all temperatures
+  row->at_most(field + 1);
+  if (line + 1 < block.lines.size()) no_tables(builder, block, block.lines[line + 1].location);
+  warn_if_incompressible(builder, block, *law);
 }
 
 const RegisterKeyword material{{"MATERIAL", Phase::definitions, Place::model, {required(name("NAME"))}, read_material}};

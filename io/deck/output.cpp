@@ -21,6 +21,13 @@ const Words contact_fields{"CPRESS", "CSHEAR", "COPEN", "CSLIP", "CNORMF", "CSHE
 const Words contact_histories{"CFN", "CFT", "CM", "CAREA", "XN"};
 const Words energies{"ALLKE", "ALLIE", "ALLSE", "ALLPD", "ALLVD", "ALLAE", "ALLFD", "ALLCW", "ALLWK", "ETOTAL"};
 
+// Variables of Abaqus that its own pre-processor asks for by default and that are not written here: told, but no reason to refuse.
+const Words abaqus_only{"CF",    "COORD", "TF",    "RT",     "UT",     "VT",     "AT",     "NT",      "CM1",    "E",      "EE",     "NE",
+                        "PE",    "PEEQ",  "PEMAG", "PEEQT",  "EVOL",   "IVOL",   "ELSE",   "ELKE",    "ELPD",   "PRESS",  "TRIAX",  "DENSITY",
+                        "STATUS", "SF",   "SE",    "ER",     "EVF",    "SVAVG",  "PEVAVG", "PEEQVAVG", "CNAREA", "CSTATUS", "CFS",
+                        "ALLCD", "ALLDMD", "ALLEE", "ALLJD", "ALLKL", "ALLQB", "ALLSD", "ALLVE", "ALLDC", "ALLMW", "ALLPW", "ALLCCDW",
+                        "ALLCCE", "ALLCCEN", "ALLCCET", "ALLCCSD", "ALLCCSDN", "ALLCCSDT", "ALLHF", "ALLIHE", "DMASS", "EFABRIC"};
+
 const Words preselected_node{"U", "V", "A", "RF"};
 const Words preselected_element{"S", "LE", "MISES"};
 const Words preselected_contact{"CPRESS", "CSHEAR", "COPEN"};
@@ -80,6 +87,10 @@ void begin_field(Builder& builder, const Block& block) {
   }
   output.single_precision = block.value("PRECISION", "SINGLE") == "SINGLE";
   if (!set_times(builder, block, output)) return;
+  const std::size_t row = builder.model.steps.size() - 1;
+  builder.without_field.erase(row);
+  if (output.frequency == 0 && step.field_outputs.empty()) builder.without_field.insert(row);
+  if (output.frequency == 0) return;  // none
   step.field_outputs.push_back(std::move(output));
   builder.draft.output = StepDraft::Output::field;
 }
@@ -95,6 +106,10 @@ void begin_history(Builder& builder, const Block& block) {
   }
   FieldOutput times;
   if (!set_times(builder, block, times)) return;
+  const std::size_t row = builder.model.steps.size() - 1;
+  builder.without_history.erase(row);
+  if (times.frequency == 0 && step.history_outputs.empty()) builder.without_history.insert(row);
+  if (times.frequency == 0) return;
   HistoryOutput output;
   output.frequency = times.frequency;
   output.time_interval = times.time_interval;
@@ -125,7 +140,10 @@ void each_variable(Builder& builder, const Block& block, const Use& use) {
   }
 }
 
-void unknown_variable(Row& row, const std::string& variable, const Words& known) {
+void unknown_variable(Builder& builder, const Block& block, Row& row, const std::string& variable, const Words& known) {
+  if (contains(abaqus_only, variable)) {
+    return builder.warning(block, row.location(), fmt::format("variable {} is not written by Balocco", variable));
+  }
   row.error(fmt::format("variable {} is unknown or not supported{}; supported: {}", variable, did_you_mean(variable, known), join(known)));
 }
 
@@ -151,7 +169,7 @@ void read_node_field(Builder& builder, const Block& block) {
     for (const auto& variable : block.value("VARIABLE") == "ALL" ? node_vectors : preselected_node) add(output.node_variables, variable);
   }
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
-    if (!contains(node_vectors, variable)) return unknown_variable(row, variable, node_vectors);
+    if (!contains(node_vectors, variable)) return unknown_variable(builder, block, row, variable, node_vectors);
     add(output.node_variables, variable);
   });
 }
@@ -169,7 +187,7 @@ void read_node_history(Builder& builder, const Block& block) {
   }
   if (is_preselect(block)) request.variables = preselected_node;
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
-    if (!is_node_history(variable)) return unknown_variable(row, variable, node_vectors);
+    if (!is_node_history(variable)) return unknown_variable(builder, block, row, variable, node_vectors);
     add(request.variables, variable);
   });
   if (!request.variables.empty()) current(builder).history_outputs.back().nodes.push_back(std::move(request));
@@ -224,19 +242,23 @@ void read_contact_history(Builder& builder, const Block& block) {
   if (block.has("SLAVE")) slave = builder.require(builder.surfaces, block.value("SLAVE"), block, block.location).value_or(-2);
   if (block.has("MASTER")) master = builder.require(builder.surfaces, block.value("MASTER"), block, block.location).value_or(-2);
   if (slave == -2 || master == -2) return;
+  const auto in_set = [&](std::int32_t pair) {
+    const auto set = builder.contact_pair_sets.find(block.value("CPSET"));
+    return !block.has("CPSET") || (set != builder.contact_pair_sets.end() && set->second.contains(pair));
+  };
   bool any = false;
   for (std::size_t pair = 0; pair < builder.model.contact_pairs.size(); ++pair) {
     const auto& candidate = builder.model.contact_pairs[pair];
-    if ((slave >= 0 && candidate.slave != slave) || (master >= 0 && candidate.master != master)) continue;
-    any = true;
     const auto row = static_cast<std::int32_t>(pair);
+    if ((slave >= 0 && candidate.slave != slave) || (master >= 0 && candidate.master != master) || !in_set(row)) continue;
+    any = true;
     if (std::find(output.contact_pairs.begin(), output.contact_pairs.end(), row) == output.contact_pairs.end()) {
       output.contact_pairs.push_back(row);
     }
   }
   if (!any && !builder.draft.faulty) builder.error(block, block.location, "there is no such contact pair; declare it before the step or remove the request");
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
-    if (!contains(contact_histories, variable)) unknown_variable(row, variable, contact_histories);
+    if (!contains(contact_histories, variable)) unknown_variable(builder, block, row, variable, contact_histories);
   });
 }
 
@@ -252,8 +274,9 @@ void read_contact_output(Builder& builder, const Block& block) {
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     // CSTRESS and CDISP are Abaqus's names for the groups.
     if (variable == "CSTRESS") return add(output.contact_variables, "CPRESS"), add(output.contact_variables, "CSHEAR");
+    if (variable == "CFORCE") return add(output.contact_variables, "CNORMF"), add(output.contact_variables, "CSHEARF");
     if (variable == "CDISP") return add(output.contact_variables, "COPEN"), add(output.contact_variables, "CSLIP");
-    if (!contains(contact_fields, variable)) return unknown_variable(row, variable, contact_fields);
+    if (!contains(contact_fields, variable)) return unknown_variable(builder, block, row, variable, contact_fields);
     add(output.contact_variables, variable);
   });
 }
@@ -264,7 +287,7 @@ void read_energy_output(Builder& builder, const Block& block) {
   auto& output = current(builder).history_outputs.back();
   if (is_preselect(block) || block.lines.empty()) output.energies = energies;
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
-    if (!contains(energies, variable)) return unknown_variable(row, variable, energies);
+    if (!contains(energies, variable)) return unknown_variable(builder, block, row, variable, energies);
     add(output.energies, variable);
   });
 }
@@ -302,7 +325,7 @@ void default_times(Step& step) {
 const RegisterKeyword output{{"OUTPUT", Phase::history, Place::step,
                               {flag("FIELD"), flag("HISTORY"), integer("FREQUENCY"), integer("NUMBER INTERVAL"), real("TIME INTERVAL"),
                                name("TIME POINTS"), choice("VARIABLE", {"PRESELECT", "ALL"}), choice("OP", {"NEW", "ADD"}),
-                               choice("PRECISION", {"SINGLE", "DOUBLE"})},
+                               choice("PRECISION", {"SINGLE", "DOUBLE"}), choice("TIME MARKS", {"NO"})},
                               read_output}};
 const ParameterRule variable = choice("VARIABLE", {"PRESELECT", "ALL"});
 const RegisterKeyword node_output{{"NODE OUTPUT", Phase::history, Place::step, {name("NSET"), variable}, read_node_output, "OUTPUT"}};
@@ -310,7 +333,7 @@ const RegisterKeyword element_output{{"ELEMENT OUTPUT", Phase::history, Place::s
                                       {name("ELSET"), variable, choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}),
                                        choice("DIRECTIONS", {"YES"})},
                                       read_element_output, "OUTPUT"}};
-const RegisterKeyword contact_output{{"CONTACT OUTPUT", Phase::history, Place::step, {name("SLAVE"), name("MASTER"), variable},
+const RegisterKeyword contact_output{{"CONTACT OUTPUT", Phase::history, Place::step, {name("SLAVE"), name("MASTER"), name("CPSET"), variable},
                                       read_contact_output, "OUTPUT"}};
 const RegisterKeyword energy_output{{"ENERGY OUTPUT", Phase::history, Place::step, {variable}, read_energy_output, "OUTPUT"}};
 
@@ -334,14 +357,18 @@ void finish_output(Builder& builder) {
     return std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group->output_components(variable) > 0; });
   };
   for (const auto& [variable, location] : builder.asked_element_variables) {
-    if (!exists(variable)) {
+    if (exists(variable)) continue;
+    if (contains(abaqus_only, variable)) {
+      builder.diagnostics.warning(location, "ELEMENT OUTPUT", fmt::format("variable {} does not exist in this model and is not written", variable));
+    } else {
       builder.diagnostics.error(location, "ELEMENT OUTPUT", fmt::format("no element of the model has the variable {}; remove it or "
                                                                         "correct the name (S, LE, MISES, SENER ...)", variable));
     }
   }
-  for (auto& step : model.steps) {
-    if (step.field_outputs.empty()) step.field_outputs.push_back(preselected_field());
-    if (step.history_outputs.empty()) {
+  for (std::size_t row = 0; row < model.steps.size(); ++row) {
+    Step& step = model.steps[row];
+    if (step.field_outputs.empty() && !builder.without_field.contains(row)) step.field_outputs.push_back(preselected_field());
+    if (step.history_outputs.empty() && !builder.without_history.contains(row)) {
       step.history_outputs.emplace_back();
       step.history_outputs.back().energies = energies;
     }

@@ -158,10 +158,11 @@ void Scheduler::add_checked(const Block& block) {
     parent_ = block.keyword;
     parent_refused_ = false;
   }
+  const bool skipped = step_refused_ && rule->phase == Phase::history;
   if (block.keyword == "STEP" || block.keyword == "ENDSTEP") begin_or_end_step(block);
   if (!rule->warning.empty()) builder_.warning(block, block.location, rule->warning);
   const bool in_step = step_ != nullptr && rule->phase == Phase::history;
-  if (rule->handler != nullptr && !(in_step && step_refused_)) tasks_.push_back({&block, rule, scope_, in_step || block.keyword == "ENDSTEP"});
+  if (rule->handler != nullptr && !skipped) tasks_.push_back({&block, rule, scope_, in_step || block.keyword == "ENDSTEP"});
 }
 
 bool Scheduler::accepted(const Block& block, const KeywordRule& rule) {

@@ -72,7 +72,8 @@ std::optional<Section> begin(Builder& builder, const Block& block, std::vector<E
       section.hourglass_scale = controls->second.hourglass_scale;
     }
   }
-  return good ? std::optional(section) : std::nullopt;
+  // An empty set has been told, or is what is left of refused elements.
+  return good && !elements.empty() ? std::optional(section) : std::nullopt;
 }
 
 bool need_material(Builder& builder, const Block& block) {
@@ -183,7 +184,13 @@ void read_section_controls(Builder& builder, const Block& block) {
   if (!block.lines.empty()) {
     Row row(builder, block, block.lines[0]);
     controls.hourglass_scale = row.real_or(0, 1.0, "scale of the hourglass stiffness");
-    row.at_most(1);
+    // Abaqus/CAE writes the scales of rotations, out-of-plane motion and bulk viscosity behind it, all 1.
+    for (int field = 1; field < 5; ++field) {
+      if (row.real_or(field, 1.0, "scale") != 1.0) {
+        row.error(fmt::format("field {} ('{}') is not supported; leave it empty or 1", field + 1, row.text(field)));
+      }
+    }
+    row.at_most(5);
     if (row.ok() && !(controls.hourglass_scale > 0.0)) row.error("the scale must be positive; correct it");
   }
   if (!builder.section_controls.emplace(block.value("NAME"), controls).second) {
@@ -200,7 +207,7 @@ const RegisterKeyword membrane{{"MEMBRANE SECTION", Phase::sections, Place::mode
                                 read_membrane_section}};
 const RegisterKeyword mass{{"MASS", Phase::sections, Place::model, {required(name("ELSET"))}, read_mass}};
 const RegisterKeyword rotary{{"ROTARY INERTIA", Phase::sections, Place::model,
-                              {required(name("ELSET")), name("ORIENTATION")}, read_rotary_inertia}};
+                              {required(name("ELSET"))}, read_rotary_inertia}};
 // SECOND ORDER ACCURACY chooses nothing here: the kinematics are exact either way.
 const RegisterKeyword controls{{"SECTION CONTROLS", Phase::definitions, Place::model,
                                 {required(name("NAME")), choice("HOURGLASS", {"ENHANCED", "STIFFNESS"}),

@@ -50,6 +50,7 @@ void inherit(Builder& builder, Step& step) {
   for (const auto& done : model.steps) total += done.duration();
   const auto settle = [&](auto& loads) {
     for (auto& load : loads) load.previous = reached(model, load, before.duration(), total);
+    std::erase_if(loads, [](const auto& load) { return load.magnitude == 0.0 && load.previous == 0.0; });
   };
   settle(step.concentrated_loads);
   settle(step.pressures);
@@ -73,6 +74,9 @@ void begin_step(Builder& builder, const Block& block) {
   builder.draft.faulty = builder.refused_steps.contains(&block);
   Step step;
   inherit(builder, step);
+  const std::size_t row = builder.model.steps.size();
+  if (builder.without_field.contains(row - 1)) builder.without_field.insert(row);
+  if (builder.without_history.contains(row - 1)) builder.without_history.insert(row);
   step.name = block.value("NAME", fmt::format("STEP-{}", builder.model.steps.size() + 1));
   for (const auto& other : builder.model.steps) {
     if (other.name == step.name) builder.error(block, block.location, fmt::format("two steps are named {}; rename one", step.name));
@@ -240,7 +244,7 @@ const RegisterKeyword controls{{"CONTROLS", Phase::history, Place::step,
                                 read_controls}};
 // OVERLAY is how checkpoints are always kept: the last whole one.
 const RegisterKeyword restart{{"RESTART", Phase::history, Place::step,
-                               {required(flag("WRITE")), integer("FREQUENCY"), integer("NUMBER INTERVAL"), flag("OVERLAY")},
+                               {required(flag("WRITE")), integer("FREQUENCY"), integer("NUMBER INTERVAL"), flag("OVERLAY"), choice("TIME MARKS", {"NO"})},
                                read_restart}};
 
 }  // namespace

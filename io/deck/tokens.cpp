@@ -34,6 +34,13 @@ class LineCursor {
   std::int32_t number_ = 0;
 };
 
+/// Zero bytes anywhere, or control characters at the beginning that no text has.
+bool is_binary(const std::string& text) {
+  const auto control = [](char c) { return c >= 0 && c < 32 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != '\v'; };
+  const auto beginning = std::string_view(text).substr(0, 4096);
+  return text.find('\0') != std::string::npos || std::any_of(beginning.begin(), beginning.end(), control);
+}
+
 bool is_comment(std::string_view line) { return line.starts_with("**"); }
 
 class Tokenizer {
@@ -78,8 +85,8 @@ void Tokenizer::read(const std::string& path, Location included_from, std::strin
   const std::string& stored = tokens_.texts.back();
   const auto file = static_cast<std::int32_t>(tokens_.files.size());
   tokens_.files.push_back(path);
-  if (stored.find('\0') != std::string::npos) {
-    diagnostics_.error({file, 1}, "", "this is not a text file (it holds zero bytes); give a deck in Abaqus keyword syntax");
+  if (is_binary(stored)) {
+    diagnostics_.error({file, 1}, "", "this is not a text file; give a deck in Abaqus keyword syntax");
     return;
   }
   chain_.push_back(normal);

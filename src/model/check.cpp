@@ -21,6 +21,8 @@ class Checker {
   explicit Checker(const Model& model) : model_(model) {}
 
   std::vector<std::string> run() {
+    if (model_.elements.empty()) errors_.push_back((model_.files.empty() ? model_.name : model_.files[0]) +
+                                                   ": error: the model has no elements; add *NODE and *ELEMENT");
     check_sections();
     check_geometry();
     check_materials();

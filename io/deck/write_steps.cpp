@@ -1,0 +1,196 @@
+// The steps of a deck being written.
+#include <algorithm>
+
+#include "deck/writer.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+const Step* before(const Model& model, std::size_t row) { return row == 0 ? nullptr : &model.steps[row - 1]; }
+
+const char* type_of(BoundaryCondition::Kind kind) {
+  switch (kind) {
+    case BoundaryCondition::Kind::velocity: return ", TYPE=VELOCITY";
+    case BoundaryCondition::Kind::acceleration: return ", TYPE=ACCELERATION";
+    case BoundaryCondition::Kind::displacement: break;
+  }
+  return "";
+}
+
+}  // namespace
+
+void Writer::procedure(const Step& step) {
+  if (step.procedure == Step::Procedure::static_analysis) {
+    const auto& p = step.static_procedure;
+    line("*STATIC{}{}", p.direct ? ", DIRECT" : "", p.stabilize ? fmt::format(", STABILIZE={}", p.dissipated_energy_fraction) : "");
+    line("{}, {}, {}, {}", p.initial_increment, p.duration, p.minimum_increment, p.maximum_increment);
+    return;
+  }
+  const auto& p = step.explicit_procedure;
+  line("*DYNAMIC, EXPLICIT{}{}", p.fixed_increment ? ", DIRECT USER CONTROL" : "",
+       p.scale_factor != 1.0 ? fmt::format(", SCALE FACTOR={}", p.scale_factor) : "");
+  line("{}, {}", p.fixed_increment ? fmt::format("{}", *p.fixed_increment) : "", p.duration);
+  line("*BULK VISCOSITY\n{}, {}", p.linear_bulk_viscosity, p.quadratic_bulk_viscosity);
+}
+
+void Writer::controls(const Step& step, const StaticControls& old) {
+  const auto& now = step.controls;
+  if (now.residual_tolerance != old.residual_tolerance || now.correction_tolerance != old.correction_tolerance) {
+    line("*CONTROLS, PARAMETERS=FIELD\n{}, {}", now.residual_tolerance, now.correction_tolerance);
+  }
+  if (now.maximum_iterations != old.maximum_iterations) {
+    line("*CONTROLS, PARAMETERS=TIME INCREMENTATION\n, , , {}", now.maximum_iterations);
+  }
+  if (now.line_search != old.line_search) line("*CONTROLS, PARAMETERS=LINE SEARCH\n{}", now.line_search ? 5 : 0);
+}
+
+void Writer::contact_changes(std::size_t row) {
+  const auto& active = model_.steps[row].active_contact_pairs;
+  const auto contains = [](const std::vector<std::int32_t>& pairs, std::int32_t pair) {
+    return std::find(pairs.begin(), pairs.end(), pair) != pairs.end();
+  };
+  for (std::size_t k = 0; k < model_.contact_pairs.size(); ++k) {
+    const auto pair = static_cast<std::int32_t>(k);
+    const auto& [slave, master, interaction, first_step, location] = model_.contact_pairs[k];
+    const bool now = contains(active, pair), starts = first_step > 0 && first_step == static_cast<std::int32_t>(row);
+    const bool was = row == 0 ? first_step == 0 : contains(model_.steps[row - 1].active_contact_pairs, pair);
+    const std::string names = quoted(model_.surfaces[slave].name) + ", " + quoted(model_.surfaces[master].name);
+    if (starts) line("*CONTACT PAIR, INTERACTION={}\n{}", quoted(model_.interactions[interaction].name), names);
+    if (now != (was || starts)) line("*MODEL CHANGE, TYPE=CONTACT PAIR, {}\n{}", now ? "ADD" : "REMOVE", names);
+  }
+}
+
+/// Conditions are stated in the step in which they are new. Where earlier ones were taken away, all are stated afresh.
+void Writer::boundary(std::size_t row) {
+  const auto& conditions = model_.steps[row].boundary;
+  const Step* previous = before(model_, row);
+  const auto still_there = [&](const BoundaryCondition& old) {
+    return std::any_of(conditions.begin(), conditions.end(),
+                       [&](const BoundaryCondition& c) { return c.node == old.node && c.dof == old.dof; });
+  };
+  const bool renew = previous != nullptr && !(conditions.size() >= previous->boundary.size() &&
+                     std::equal(previous->boundary.begin(), previous->boundary.end(), conditions.begin(),
+                                [](const auto& a, const auto& b) { return a.node == b.node && a.dof == b.dof; })) &&
+                     !std::all_of(previous->boundary.begin(), previous->boundary.end(), still_there);
+  if (renew) line("*BOUNDARY, OP=NEW");
+  std::string header;
+  for (const auto& c : conditions) {
+    if (c.propagated && !renew) continue;
+    const std::string wanted = fmt::format("*BOUNDARY{}{}{}{}", renew ? ", OP=NEW" : "", type_of(c.kind), c.fixed ? ", FIXED" : "",
+                                           amplitude_parameter(c.amplitude));
+    if (wanted != header) line("{}", wanted);
+    header = wanted;
+    if (c.fixed) {
+      line("{}, {}, {}", node_id(c.node), c.dof + 1, c.dof + 1);
+    } else {
+      line("{}, {}, {}, {}", node_id(c.node), c.dof + 1, c.dof + 1, c.magnitude);
+    }
+  }
+}
+
+void Writer::loads(const Step& step) {
+  std::string header;
+  const auto head = [&](const std::string& keyword, std::int32_t amplitude) {
+    const std::string wanted = keyword + amplitude_parameter(amplitude);
+    if (wanted != header) line("{}", wanted);
+    header = wanted;
+  };
+  for (const auto& load : step.concentrated_loads) {
+    head("*CLOAD", load.amplitude);
+    line("{}, {}, {}", node_id(load.node), load.dof + 1, load.magnitude);
+  }
+  for (const auto& load : step.pressures) {
+    head("*DSLOAD", load.amplitude);
+    line("{}, P, {}", quoted(model_.surfaces[load.surface].name), load.magnitude);
+  }
+  for (const auto& load : step.gravity) {
+    head("*DLOAD", load.amplitude);
+    line("{}, GRAV, {}, {}, {}, {}", load.element_set < 0 ? "" : quoted(model_.element_sets[load.element_set].name), load.magnitude,
+         load.direction[0], load.direction[1], load.direction[2]);
+  }
+}
+
+void Writer::attachments(const Step& step) {
+  for (const auto& change : step.attachments) {
+    const auto& body = model_.rigid_bodies[change.rigid_body];
+    line("*RIGID BODY, REF NODE={}, {} NSET={}", node_id(body.reference_node), change.release ? "RELEASE" : change.tie ? "TIE" : "PIN",
+         quoted(node_set_of(change.nodes, fmt::format("_{}-{}-CHANGE", step.name, body.name))));
+  }
+}
+
+void Writer::field_output(const FieldOutput& output, std::size_t step, std::size_t number) {
+  std::string times;
+  if (output.frequency) times = fmt::format(", FREQUENCY={}", *output.frequency);
+  if (output.number_interval) times = fmt::format(", NUMBER INTERVAL={}", *output.number_interval);
+  if (output.time_interval) times = fmt::format(", TIME INTERVAL={}", *output.time_interval);
+  if (!output.time_points.empty()) {
+    const std::string name = fmt::format("TIMES-{}-{}", step + 1, number + 1);
+    time_points_ += "*TIME POINTS, NAME=" + name + "\n";
+    for (const double time : output.time_points) time_points_ += fmt::format("{}\n", time);
+    times = ", TIME POINTS=" + name;
+  }
+  line("*OUTPUT, FIELD{}{}", times, output.single_precision ? "" : ", PRECISION=DOUBLE");
+  const auto request = [&](const char* keyword, const std::vector<std::string>& variables) {
+    if (variables.empty()) return;
+    line("{}", keyword);
+    values(variables);
+  };
+  request("*NODE OUTPUT", output.node_variables);
+  request("*ELEMENT OUTPUT", output.element_variables);
+  request("*ELEMENT OUTPUT, POSITION=INTEGRATION POINTS", output.integration_point_variables);
+  request("*CONTACT OUTPUT", output.contact_variables);
+}
+
+void Writer::history_output(const HistoryOutput& output) {
+  if (output.frequency) line("*OUTPUT, HISTORY, FREQUENCY={}", *output.frequency);
+  if (output.time_interval) line("*OUTPUT, HISTORY, TIME INTERVAL={}", *output.time_interval);
+  for (const auto& request : output.nodes) {
+    line("*NODE OUTPUT, NSET={}", quoted(model_.node_sets[request.set].name));
+    values(request.variables);
+  }
+  for (const auto& request : output.elements) {
+    line("*ELEMENT OUTPUT, ELSET={}", quoted(model_.element_sets[request.set].name));
+    values(request.variables);
+  }
+  if (!output.energies.empty()) {
+    line("*ENERGY OUTPUT");
+    values(output.energies);
+  }
+  for (const auto pair : output.contact_pairs) {
+    line("*CONTACT OUTPUT, SLAVE={}, MASTER={}\nCFN, CFT, CM, CAREA, XN", quoted(model_.surfaces[model_.contact_pairs[pair].slave].name),
+         quoted(model_.surfaces[model_.contact_pairs[pair].master].name));
+  }
+}
+
+void Writer::checkpoints(std::size_t row) {
+  const Step& step = model_.steps[row];
+  if (step.checkpoint_frequency) {
+    line("*RESTART, WRITE, FREQUENCY={}", *step.checkpoint_frequency);
+  } else if (step.checkpoint_number_interval) {
+    line("*RESTART, WRITE, NUMBER INTERVAL={}", *step.checkpoint_number_interval);
+  } else if (row > 0 && (model_.steps[row - 1].checkpoint_frequency || model_.steps[row - 1].checkpoint_number_interval)) {
+    line("*RESTART, WRITE, FREQUENCY=0");
+  }
+}
+
+void Writer::step(std::size_t row) {
+  const Step& now = model_.steps[row];
+  comment(("Step " + now.name).c_str());
+  line("*STEP, NAME={}, NLGEOM={}, INC={}", quoted(now.name), now.static_procedure.nonlinear_geometry ? "YES" : "NO",
+       now.static_procedure.maximum_increments);
+  procedure(now);
+  controls(now, row == 0 ? StaticControls{} : before(model_, row)->controls);
+  contact_changes(row);
+  attachments(now);
+  boundary(row);
+  loads(now);
+  checkpoints(row);
+  for (std::size_t k = 0; k < now.field_outputs.size(); ++k) field_output(now.field_outputs[k], row, k);
+  if (now.field_outputs.empty()) line("*OUTPUT, FIELD, FREQUENCY=0");
+  for (const auto& output : now.history_outputs) history_output(output);
+  if (now.history_outputs.empty()) line("*OUTPUT, HISTORY, FREQUENCY=0");
+  line("*END STEP");
+}
+
+}  // namespace balocco::deck
