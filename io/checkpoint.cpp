@@ -107,6 +107,17 @@ std::string history_path(const Model& model, const TableRows& rows) {
   return "history_" + model.elements[rows.table].type->name;
 }
 
+/// Upper bound of the size of a checkpoint.
+std::size_t checkpoint_bytes(const Model& model, const Communicator& communicator, ElementGroups groups) {
+  std::size_t values = static_cast<std::size_t>(model.nodes.size()) * (6 + work_values);
+  for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
+    values += static_cast<std::size_t>(rows.exchange.total()) * history_columns(rows, communicator);
+  }
+  // Slave nodes of a pair and nodes of rigid bodies are at most all nodes each.
+  values += static_cast<std::size_t>(model.nodes.size()) * (model.contact_pairs.size() * contact_values + 5);
+  return values * sizeof(double) + (1 << 20);
+}
+
 void write_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
                   ElementGroups groups, const State& state) {
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::owned);
@@ -247,6 +258,10 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
 void write_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
                       ElementGroups groups, const State& state, bool step_finished) {
   const std::string beside = path + ".tmp";
+  const std::size_t bytes = checkpoint_bytes(model, communicator, groups);
+  communicator.together([&] {
+    if (communicator.is_root()) ensure_space(beside, bytes);
+  });
   ParallelFile file(beside, communicator, ParallelFile::Mode::create);
   write_tables(file, model, communicator, domain, groups, state);
   file.close();

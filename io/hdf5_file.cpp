@@ -97,6 +97,22 @@ void synchronize(const std::string& path) {
   }
 }
 
+void ensure_space(const std::string& path, std::size_t bytes) {
+  const int file = ::open(path.c_str(), O_RDWR | O_CREAT, 0666);
+  if (file < 0) throw SystemError(fmt::format("{}: cannot be written: {}", path, std::strerror(errno)));
+  const off_t size = ::lseek(file, 0, SEEK_END);
+  int reason = ::fallocate(file, 0, size, static_cast<off_t>(bytes)) == 0 ? 0 : errno;
+  if (::ftruncate(file, size) != 0 && reason == 0) reason = errno;
+  ::close(file);
+  if (reason == EOPNOTSUPP) {  // the file system cannot reserve: ask how much is free
+    const auto folder = std::filesystem::absolute(path).parent_path();
+    reason = std::filesystem::space(folder).available < bytes ? ENOSPC : 0;
+  }
+  if (reason != 0) {
+    throw SystemError(fmt::format("{}: no room for {:.1f} MB more: {}", path, 1e-6 * static_cast<double>(bytes), std::strerror(reason)));
+  }
+}
+
 Hdf5File::Hdf5File(const std::string& path, Mode mode) : path_(path) {
   silence_hdf5();
   if (mode == Mode::create) {

@@ -98,6 +98,10 @@ hsize_t chunk_rows(hsize_t rows);
 /// Writes a file's data and directory entry through to the disk. @throws SystemError.
 void synchronize(const std::string& path);
 
+/// Makes sure that `path` can grow by `bytes`. Asked before every collective write, because ranks on which HDF5 fails leave it
+/// early and would keep the others waiting. @throws SystemError.
+void ensure_space(const std::string& path, std::size_t bytes);
+
 /// Turns off HDF5's own error prints, once per process.
 void silence_hdf5();
 

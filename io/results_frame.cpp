@@ -1,7 +1,6 @@
 #include "results_frame.hpp"
 
 #include <algorithm>
-#include <optional>
 
 #include "elements/element_type.hpp"
 
@@ -22,15 +21,7 @@ void add_names(const std::vector<std::string>& names, bool single, std::vector<F
   }
 }
 
-std::vector<hsize_t> columns_of(int components) {
-  return components > 1 ? std::vector<hsize_t>{static_cast<hsize_t>(components)} : std::vector<hsize_t>{};
-}
-
-FieldRecord record(const std::string& name, const RowExchange& exchange, const ParallelFile::Layout& layout) {
-  Extent extent{static_cast<hsize_t>(exchange.total())};
-  extent.insert(extent.end(), layout.columns.begin(), layout.columns.end());
-  return {name, extent, layout.precision == Precision::single_ ? 4u : 8u};
-}
+constexpr std::size_t room_for_structure = 1 << 20;  // groups, attributes and chunk indices of a frame
 
 }  // namespace
 
@@ -63,102 +54,144 @@ FrameWriter::FrameWriter(const Model& model, const Communicator& communicator, c
       nodes_(make_node_rows(model, communicator, domain, Copies::owned)),
       tables_(make_table_rows(model, communicator, groups)) {}
 
-FieldBlock FrameWriter::write_nodes(const Target& target, const ResultSource& source, const FrameVariables& variables) const {
-  FieldBlock block;
-  const Hdf5Id group = target.file.create_group(target.frame, "node");
-  for (const auto& [name, precision] : variables.nodes) {
-    const int components = source.nodal_components(name);
-    if (components == 0) continue;
-    std::vector<double> local(static_cast<std::size_t>(local_nodes_) * components);
-    source.nodal(name, local);
-    std::vector<double> held(nodes_.nodes.size() * components);
-    for (std::size_t i = 0; i < nodes_.nodes.size(); ++i) {
-      std::copy_n(local.begin() + static_cast<std::ptrdiff_t>(nodes_.nodes[i]) * components, components,
-                  held.begin() + i * components);
-    }
-    const ParallelFile::Layout layout{columns_of(components), precision, true};
-    target.file.write(group, name, nodes_.exchange, nodes_.exchange.to_slab(held, components), layout);
-    block.fields.push_back(record(name, nodes_.exchange, layout));
-  }
-  sort_fields(block);
-  return block;
+ParallelFile::Layout FrameWriter::Field::layout() const {
+  std::vector<hsize_t> columns;
+  if (place == Place::points) columns.push_back(static_cast<hsize_t>(points));
+  if (place == Place::points || components > 1) columns.push_back(static_cast<hsize_t>(components));
+  return {columns, precision, true};
 }
 
-std::vector<double> FrameWriter::element_values(const TableRows& rows, const ResultSource& source, const std::string& variable,
-                                                Points points, int row_values, int columns) const {
-  std::vector<double> values(rows.exchange.held() * row_values, 0.0);
+std::vector<FrameWriter::Field> FrameWriter::plan(const ResultSource& source, const FrameVariables& variables) const {
+  using Place = Field::Place;
+  std::vector<Field> fields;
+  for (const auto& [name, precision] : variables.nodes) {
+    fields.push_back({Place::node, name, 0, source.nodal_components(name), 1, precision});
+  }
+  for (std::size_t table = 0; table < tables_.size(); ++table) {
+    for (const auto& [name, precision] : variables.elements) fields.push_back({Place::mean, name, table, 0, 1, precision});
+    for (const auto& [name, precision] : variables.integration_points) {
+      fields.push_back({Place::points, name, table, 0, 1, precision});
+    }
+  }
+  // A rank without elements of a type learns from the others what they have.
+  std::vector<double> sizes;
+  for (const Field& field : fields) {
+    int components = field.components, points = 1;
+    for (const ElementGroup* group : field.place == Place::node ? std::vector<const ElementGroup*>{} : tables_[field.table].groups) {
+      components = std::max(components, group->output_components(field.variable));
+      points = std::max(points, group->integration_points());
+    }
+    sizes.insert(sizes.end(), {static_cast<double>(components), static_cast<double>(points)});
+  }
+  communicator_->maximum(sizes);
+  for (std::size_t i = 0; i < fields.size(); ++i) {
+    fields[i].components = static_cast<int>(sizes[2 * i]);
+    fields[i].points = static_cast<int>(sizes[2 * i + 1]);
+  }
+  std::erase_if(fields, [](const Field& field) { return field.components == 0; });
+  return fields;
+}
+
+const RowExchange& FrameWriter::exchange(const Field& field) const {
+  return field.place == Field::Place::node ? nodes_.exchange : tables_[field.table].exchange;
+}
+
+std::size_t FrameWriter::bytes(const std::vector<Field>& fields) const {
+  std::size_t sum = room_for_structure;
+  for (const Field& field : fields) {
+    sum += static_cast<std::size_t>(exchange(field).total()) * field.row_values() * (field.precision == Precision::single_ ? 4 : 8);
+  }
+  return sum;
+}
+
+std::vector<double> FrameWriter::nodal_values(const Field& field, const ResultSource& source) const {
+  std::vector<double> local(static_cast<std::size_t>(local_nodes_) * field.components);
+  source.nodal(field.variable, local);
+  std::vector<double> held(nodes_.nodes.size() * field.components);
+  for (std::size_t i = 0; i < nodes_.nodes.size(); ++i) {
+    std::copy_n(local.begin() + static_cast<std::ptrdiff_t>(nodes_.nodes[i]) * field.components, field.components,
+                held.begin() + i * field.components);
+  }
+  return held;
+}
+
+std::vector<double> FrameWriter::element_values(const Field& field, const ResultSource& source) const {
+  const TableRows& rows = tables_[field.table];
   const State& state = source.state();
-  std::vector<double> history;
-  auto row = values.begin();
+  std::vector<double> values(rows.exchange.held() * field.row_values(), 0.0), history;
+  double* row = values.data();
   for (std::size_t g = 0; g < rows.groups.size(); ++g) {
     const ElementGroup& group = *rows.groups[g];
-    const int components = group.output_components(variable);
-    for (std::int32_t element = 0; element < group.size(); ++element, row += row_values) {
+    const auto components = static_cast<std::size_t>(group.output_components(field.variable));
+    for (std::int32_t element = 0; element < group.size(); ++element, row += field.row_values()) {
       if (components == 0) continue;
-      const auto size = static_cast<std::size_t>(components);
-      if (points == Points::mean) {
-        mean_output(group, variable, element, state, rows.group_index[g], {&*row, size});
+      if (field.place == Field::Place::mean) {
+        mean_output(group, field.variable, element, state, rows.group_index[g], {row, components});
         continue;
       }
       history.resize(group.history_size());
       group.gather_history(element, state.element_history[rows.group_index[g]], history);
       for (int point = 0; point < group.integration_points(); ++point) {
-        group.output(variable, element, point, state.position.data(), history,
-                     {&*row + static_cast<std::ptrdiff_t>(point) * columns, size});
+        group.output(field.variable, element, point, state.position.data(), history,
+                     {row + static_cast<std::ptrdiff_t>(point) * field.components, components});
       }
     }
   }
   return values;
 }
 
-FieldBlock FrameWriter::write_table(const Target& target, const TableRows& rows, const ResultSource& source,
-                                    const FrameVariables& variables) const {
-  FieldBlock block{model_->elements[rows.table].type->name, {}};
-  std::optional<Hdf5Id> group;
-  const auto write = [&](const FrameVariables::Variable& variable, Points points) {
-    int components = 0, integration_points = 0;
-    for (const ElementGroup* mine : rows.groups) {
-      components = std::max(components, mine->output_components(variable.name));
-      integration_points = std::max(integration_points, mine->integration_points());
+std::vector<double> FrameWriter::values(const Field& field, const ResultSource& source) const {
+  return field.place == Field::Place::node ? nodal_values(field, source) : element_values(field, source);
+}
+
+FrameRecord FrameWriter::write_fields(ParallelFile& file, const Hdf5Id& frame, const std::vector<Field>& fields,
+                                      const ResultSource& source) const {
+  FrameRecord written;
+  const Hdf5Id node_group = file.create_group(frame, "node"), element_group = file.create_group(frame, "element");
+  Hdf5Id table_group;
+  for (const Field& field : fields) {
+    FieldBlock* block = &written.nodes;
+    if (field.place != Field::Place::node) {
+      const std::string& type = model_->elements[tables_[field.table].table].type->name;
+      if (written.elements.empty() || written.elements.back().type != type) {
+        written.elements.push_back({type, {}});
+        table_group = file.create_group(element_group, type);
+      }
+      block = &written.elements.back();
     }
-    components = static_cast<int>(communicator_->maximum(components));
-    integration_points = static_cast<int>(communicator_->maximum(integration_points));
-    if (components == 0) return;
-    if (!group) group = target.file.create_group(target.frame, "element/" + block.type);
-    const bool each = points == Points::each;
-    ParallelFile::Layout layout{columns_of(components), variable.precision, true};
-    if (each) layout.columns = {static_cast<hsize_t>(integration_points), static_cast<hsize_t>(components)};
-    const int row_values = each ? integration_points * components : components;
-    const auto values = element_values(rows, source, variable.name, points, row_values, components);
-    const std::string name = each ? variable.name + "_IP" : variable.name;
-    target.file.write(*group, name, rows.exchange, rows.exchange.to_slab(values, row_values), layout);
-    block.fields.push_back(record(name, rows.exchange, layout));
-  };
-  for (const auto& variable : variables.elements) write(variable, Points::mean);
-  for (const auto& variable : variables.integration_points) write(variable, Points::each);
-  sort_fields(block);
-  return block;
+    const ParallelFile::Layout layout = field.layout();
+    const RowExchange& rows = exchange(field);
+    file.write(field.place == Field::Place::node ? node_group : table_group, field.name(), rows,
+               rows.to_slab(values(field, source), field.row_values()), layout);
+    Extent extent{static_cast<hsize_t>(rows.total())};
+    extent.insert(extent.end(), layout.columns.begin(), layout.columns.end());
+    block->fields.push_back({field.name(), extent, field.precision == Precision::single_ ? 4u : 8u});
+  }
+  sort_fields(written.nodes);
+  for (FieldBlock& block : written.elements) sort_fields(block);
+  return written;
 }
 
 FrameRecord FrameWriter::write(const std::string& path, const Label& label, const ResultSource& source,
                                const FrameVariables& variables) const {
+  const std::vector<Field> fields = plan(source, variables);
+  communicator_->together([&] {
+    if (communicator_->is_root()) ensure_space(path, bytes(fields));
+  });
   ParallelFile file(path, *communicator_, ParallelFile::Mode::modify);
-  FrameRecord written{label.path, label.time, label.increment, {}, {}};
+  FrameRecord written;
   {
     const Hdf5Id frame = file.create_unnamed_group();
     file.set_attribute(frame, "time", label.time);
     file.set_attribute(frame, "step_time", label.step_time);
     file.set_attribute(frame, "increment", label.increment);
-    const Target target{file, frame};
-    written.nodes = write_nodes(target, source, variables);
-    const Hdf5Id elements = file.create_group(frame, "element");
-    for (const TableRows& rows : tables_) {
-      FieldBlock block = write_table(target, rows, source, variables);
-      if (!block.fields.empty()) written.elements.push_back(std::move(block));
-    }
+    written = write_fields(file, frame, fields, source);
     file.link(frame, label.path);
   }
   file.close();
+  written.path = label.path;
+  written.time = label.time;
+  written.increment = label.increment;
   return written;
 }
 

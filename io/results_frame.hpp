@@ -37,16 +37,27 @@ class FrameWriter {
                     const FrameVariables& variables) const;
 
  private:
-  enum class Points { mean, each };
-  struct Target {
-    ParallelFile& file;
-    const Hdf5Id& frame;
+  /// A dataset to be written: values at nodes, means of elements, or values at integration points.
+  struct Field {
+    enum class Place { node, mean, points } place;
+    std::string variable;
+    std::size_t table;  // row of tables_
+    int components = 0, points = 1;
+    ParallelFile::Precision precision;
+
+    int row_values() const { return place == Place::points ? points * components : components; }
+    std::string name() const { return place == Place::points ? variable + "_IP" : variable; }
+    ParallelFile::Layout layout() const;
   };
-  FieldBlock write_nodes(const Target& target, const ResultSource& source, const FrameVariables& variables) const;
-  FieldBlock write_table(const Target& target, const TableRows& rows, const ResultSource& source,
-                         const FrameVariables& variables) const;
-  std::vector<double> element_values(const TableRows& rows, const ResultSource& source, const std::string& variable,
-                                     Points points, int row_values, int columns) const;
+  /// The fields of a frame that exist in this model, the same on every rank. Collective.
+  std::vector<Field> plan(const ResultSource& source, const FrameVariables& variables) const;
+  std::size_t bytes(const std::vector<Field>& fields) const;
+  const RowExchange& exchange(const Field& field) const;
+  std::vector<double> values(const Field& field, const ResultSource& source) const;
+  std::vector<double> nodal_values(const Field& field, const ResultSource& source) const;
+  std::vector<double> element_values(const Field& field, const ResultSource& source) const;
+  FrameRecord write_fields(ParallelFile& file, const Hdf5Id& frame, const std::vector<Field>& fields,
+                           const ResultSource& source) const;
 
   const Model* model_;
   const Communicator* communicator_;
