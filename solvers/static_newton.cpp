@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace balocco {
 
@@ -148,18 +149,20 @@ StaticNewton::Norms StaticNewton::norms() const {
 }
 
 bool StaticNewton::accepted(const IncrementGoal& goal, const Norms& now, const NewtonResult& result) const {
-  const bool moved = now.remaining <= 1e-10 * std::max(largest_increment_, 1e-300);
-  if (!moved && now.remaining > 0.0) return false;
+  const double resolution = 8.0 * std::numeric_limits<double>::epsilon() * system_.model_size();
+  if (now.remaining > std::max(1e-10 * largest_increment_, resolution)) return false;
+  // Corrections too small for the positions to hold them: sums cannot be had more exactly.
+  const bool resolved = result.iterations > 0 && mechanism_.empty() && largest_correction_ <= resolution;
   // What is left of a structure that has come to rest without any force is judged by the forces it had.
   const double reference = std::max(now.reference, 1e-6 * greatest_reference_);
-  if (goal.ends_step) return now.residual <= final_tolerance * reference || at_round_off(now);
+  if (goal.ends_step) return now.residual <= final_tolerance * reference || resolved || at_round_off(now);
   const double tolerance = step_.controls.residual_tolerance * system_.average_force();
-  if (now.largest > tolerance) return false;
+  if (now.largest > tolerance) return resolved;
   const bool still = largest_correction_ <= step_.controls.correction_tolerance * largest_increment_;
   return now.largest <= 1e-3 * tolerance || (still && result.iterations > 0);
 }
 
-/// Two iterations brought nothing any more, and what is left is small: sums cannot be had more exactly.
+/// Two iterations brought nothing any more, and what is left is small.
 bool StaticNewton::at_round_off(const Norms& now) const {
   const auto n = history_.size();
   return n >= 3 && now.residual <= 1e-7 * now.reference && now.residual > 0.3 * history_[n - 2] &&
