@@ -27,7 +27,7 @@ void run_task(Builder& builder, const Task& task) {
 
 void run_phase(Builder& builder, const std::vector<Task>& tasks, Phase phase) {
   for (const auto& task : tasks) {
-    if (task.rule->phase == phase) run_task(builder, task);
+    if (task.phase == phase) run_task(builder, task);
   }
 }
 
@@ -42,7 +42,7 @@ void build_mesh(Builder& builder, const std::vector<Task>& tasks) {
   builder.first_pass = true;
   for (const Phase phase : {Phase::nodes, Phase::elements}) {
     for (const auto& task : tasks) {
-      if (task.rule->phase == phase) attempt(task);
+      if (task.phase == phase) attempt(task);
     }
   }
   for (std::size_t before = waiting.size() + 1; waiting.size() < before && !waiting.empty();) {

@@ -161,8 +161,10 @@ void Scheduler::add_checked(const Block& block) {
   const bool skipped = step_refused_ && rule->phase == Phase::history;
   if (block.keyword == "STEP" || block.keyword == "ENDSTEP") begin_or_end_step(block);
   if (!rule->warning.empty()) builder_.warning(block, block.location, rule->warning);
-  const bool in_step = step_ != nullptr && rule->phase == Phase::history;
-  if (rule->handler != nullptr && !skipped) tasks_.push_back({&block, rule, scope_, in_step || block.keyword == "ENDSTEP"});
+  const Phase phase = step_ != nullptr && rule->phase == Phase::constraints ? Phase::history : rule->phase;
+  const bool in_step = step_ != nullptr && phase == Phase::history;
+  if (rule->handler != nullptr && !skipped)
+    tasks_.push_back({&block, rule, scope_, phase, in_step || block.keyword == "ENDSTEP"});
 }
 
 bool Scheduler::accepted(const Block& block, const KeywordRule& rule) {

@@ -13,6 +13,7 @@ struct Task {
   const Block* block = nullptr;
   const KeywordRule* rule = nullptr;
   Scope* scope = nullptr;
+  Phase phase = Phase::history;  // constraints inside a step change with the step
   bool in_step = false;
 };
 

@@ -174,10 +174,15 @@ void Writer::checkpoints(std::size_t row) {
   }
 }
 
+/// Explicit steps are always computed with large displacements.
+bool is_nonlinear(const Step& step) {
+  return step.procedure == Step::Procedure::explicit_dynamics || step.static_procedure.nonlinear_geometry;
+}
+
 void Writer::step(std::size_t row) {
   const Step& now = model_.steps[row];
   comment(("Step " + now.name).c_str());
-  line("*STEP, NAME={}, NLGEOM={}, INC={}", quoted(now.name), now.static_procedure.nonlinear_geometry ? "YES" : "NO",
+  line("*STEP, NAME={}, NLGEOM={}, INC={}", quoted(now.name), is_nonlinear(now) ? "YES" : "NO",
        now.static_procedure.maximum_increments);
   procedure(now);
   controls(now, row == 0 ? StaticControls{} : before(model_, row)->controls);

@@ -280,7 +280,7 @@ WheelAndRoad add_rim_and_road(const TyreSpec& spec, const TyreSection& section, 
   pair.slave = mesh.tread_surface;
   pair.master = road_row;
   pair.interaction = 0;
-  pair.first_step = contact;
+  pair.first_step = 0;  // known from the start so that every step may ask for its history; active from CONTACT on
   model.contact_pairs.push_back(pair);
   return rig;
 }

@@ -23,5 +23,14 @@ TEST(DeckReader, BrickWithAStaticStep) {
   EXPECT_DOUBLE_EQ(model.steps[0].boundary[3].magnitude, 0.5);
 }
 
+TEST(DeckReader, RigidBodyInAStepAttachesNodesToTheBodyOfTheModel) {
+  const std::string body = "*NODE\n9, 0.5, 0.5, 3.\n*NSET, NSET=TOP\n5, 6, 7, 8\n*RIGID BODY, REF NODE=9\n";
+  const auto [model, warnings] = read(brick + body + "*STEP, NLGEOM\n*STATIC\n*RIGID BODY, REF NODE=9, TIE NSET=TOP\n*END STEP\n");
+  ASSERT_EQ(model.rigid_bodies.size(), 1u);
+  EXPECT_TRUE(model.rigid_bodies[0].tie_nodes.empty());
+  ASSERT_EQ(model.steps[0].attachments.size(), 1u);
+  EXPECT_EQ(model.steps[0].attachments[0].nodes, (std::vector<std::int32_t>{4, 5, 6, 7}));
+}
+
 }  // namespace
 }  // namespace balocco
