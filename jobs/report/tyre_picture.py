@@ -63,15 +63,15 @@ def facets(results, frame, variable):
 
 def road_strips(surface, moved, centre, reach, half_width):
     """Facets of the extruded profile around the wheel, `reach` to each side, with a body below it in the side view."""
-    points = surface.points(surface.profile) + moved
-    along = points @ surface.axes[0]
-    middle = centre @ surface.axes[0]
-    fine = np.unique(np.concatenate([along, np.linspace(middle - reach, middle + reach, 60)]))
-    fine = fine[(fine >= max(middle - reach, along[0])) & (fine <= min(middle + reach, along[-1]))]
-    height = np.interp(fine, along, points @ surface.axes[1])
-    third = points[0] @ surface.axes[2]
-    line = fine[:, None] * surface.axes[0] + height[:, None] * surface.axes[1]
-    left, right = line + (third - half_width) * surface.axes[2], line + (third + half_width) * surface.axes[2]
+    profile = surface.profile + np.array([moved @ surface.axes[0], moved @ surface.axes[1]])
+    middle = (centre - surface.origin) @ surface.axes[0]
+    pieces = []
+    for start, end in zip(profile[:-1], profile[1:]):  # short pieces, so that they sort by depth and end at the reach
+        count = max(1, int(np.ceil(np.linalg.norm(end - start) / 12.0)))
+        pieces.append(start + np.linspace(0.0, 1.0, count, endpoint=False)[:, None] * (end - start))
+    fine = np.concatenate(pieces + [profile[-1:]])
+    line = surface.points(fine[np.abs(fine[:, 0] - middle) <= reach])
+    left, right = line - half_width * surface.axes[2], line + half_width * surface.axes[2]
     return np.stack([left[:-1], left[1:], right[1:], right[:-1]], axis=1), line
 
 
@@ -86,7 +86,8 @@ def draw(axes, results, frame, view, variable, scale, surface=None, road_moved=N
         normal /= np.maximum(np.linalg.norm(normal, axis=1, keepdims=True), 1e-300)
         order = np.argsort(view.depth(strips.mean(axis=1)))
         grey = (0.55 + 0.4 * np.abs(normal @ LIGHT))[order, None] * np.array([0.78, 0.78, 0.80])
-        axes.add_collection(PolyCollection(view.project(strips)[order], facecolors=np.clip(grey, 0, 1), edgecolors="none"))
+        axes.add_collection(PolyCollection(view.project(strips)[order],
+                                           facecolors=np.clip(grey, 0, 1), edgecolors="face", linewidths=0.4))
         if abs(view.toward @ surface.axes[2]) > 0.99:
             outline = view.project(line)
             floor = outline[:, 1].min() - 30.0
@@ -97,8 +98,7 @@ def draw(axes, results, frame, view, variable, scale, surface=None, road_moved=N
     colours[:, :3] *= shade(normals)[:, None]
     order = np.argsort(view.depth(corners.mean(axis=1)))
     axes.add_collection(PolyCollection(view.project(corners)[order], facecolors=colours[order],
-                                       edgecolors=np.append(0.55 * np.ones(3), 0.0)[None] if len(corners) > 60000
-                                       else np.clip(0.72 * colours[order], 0, 1), linewidths=0.15))
+                                       edgecolors=np.clip(0.72 * colours[order], 0, 1), linewidths=0.15))
     axes.set_aspect("equal")
     axes.autoscale_view()
     axes.axis("off")
