@@ -122,8 +122,9 @@ bool StaticLinearSolver::solve(std::span<const double> right_hand_side, std::spa
 
 std::string StaticLinearSolver::largest_component(Vec vector) {
   PetscInt equation = -1;
+  double largest = 0.0;
   petsc(VecAbs(vector));
-  petsc(VecMax(vector, &equation, nullptr));
+  petsc(VecMax(vector, &equation, &largest));
   return map_.describe_equation(equation);
 }
 
@@ -131,7 +132,8 @@ std::string StaticLinearSolver::largest_component(Vec vector) {
 std::string StaticLinearSolver::unresisted_equation() {
   PetscVector largest;
   petsc(VecDuplicate(solution_, largest.address()));
-  petsc(MatGetRowMaxAbs(matrix_, largest, nullptr));
+  std::vector<PetscInt> columns(map_.owned_free_slots().size());  // PETSc's sequential matrices want to tell where
+  petsc(MatGetRowMaxAbs(matrix_, largest, columns.data()));
   double smallest = 0.0;
   PetscInt equation = -1;
   petsc(VecMin(largest, &equation, &smallest));

@@ -14,8 +14,8 @@ namespace {
 constexpr double final_tolerance = 1e-9;
 /// Iterations in which contact opened or closed that do not count against the limit.
 constexpr int discontinuous_iterations = 12;
-/// Penetration that augmentation leaves, relative to the edge of a slave node's area.
-constexpr double penetration_tolerance = 1e-3;
+/// Penetration that augmentation leaves at the end of a step and before, relative to the edge of a slave node's area.
+constexpr double penetration_tolerance = 1e-3, passing_penetration_tolerance = 2e-2;
 constexpr int most_augmentations = 12;
 
 /// Corrections of a structure that is held back are at most this part of the model's size.
@@ -63,7 +63,7 @@ NewtonResult StaticNewton::converge(const IncrementGoal& goal) {
     log_iteration(result, now);
     if (accepted(goal, now, result)) {
       if (!stands_alone(goal)) throw AnalysisError(mechanism_message(step_, mechanism_));
-      if (!penetrates(result)) {
+      if (!penetrates(goal, result)) {
         result.converged = true;
         return result;
       }
@@ -215,7 +215,7 @@ bool StaticNewton::solve(const IncrementGoal& goal, NewtonResult& result) {
   observer_.log(
       fmt::format("    nothing resists a motion of {}: iterations are held back until something does", where));
   mechanism_ = where;
-  regularization_ = 1e-6 * solver_.average_diagonal();
+  regularization_ = 1e-8 * solver_.average_diagonal();
   if (evaluate(goal) && solve_held_back(goal)) return true;
   result.reason = fmt::format("nothing resists a motion of {}", where);
   return false;
@@ -303,9 +303,9 @@ void StaticNewton::measure_correction(double factor) {
 }
 
 /// Augments the contact's multipliers where it penetrates too far.
-bool StaticNewton::penetrates(NewtonResult& result) {
+bool StaticNewton::penetrates(const IncrementGoal& goal, NewtonResult& result) {
   if (!system_.has_contact() || augmentations_ >= most_augmentations) return false;
-  const double allowed = penetration_tolerance * contact_length_;
+  const double allowed = (goal.ends_step ? penetration_tolerance : passing_penetration_tolerance) * contact_length_;
   const double penetration = system_.greatest_penetration();
   if (penetration <= allowed) return false;
   system_.augment_contact();

@@ -74,7 +74,7 @@ class StaticNewton {
   bool solve_held_back(const IncrementGoal& goal);
   bool stands_alone(const IncrementGoal& goal);
   bool search_line(const IncrementGoal& goal);
-  bool penetrates(NewtonResult& result);
+  bool penetrates(const IncrementGoal& goal, NewtonResult& result);
   bool gives_up(const IncrementGoal& goal, const Norms& now, NewtonResult& result);
   void measure_correction(double factor);
   void log_iteration(const NewtonResult& result, const Norms& now) const;
