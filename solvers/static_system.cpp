@@ -186,6 +186,7 @@ double StaticSystem::contact_length() const {
   std::array<double, 2> sum{};
   for (const auto pair : step_.active_contact_pairs)
     for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) {
+      if (!analysis_.domain.owned[analysis_.contacts[pair].nodes()[point]]) continue;
       sum[0] += std::sqrt(analysis_.contacts[pair].area(point));
       sum[1] += 1.0;
     }
