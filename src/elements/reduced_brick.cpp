@@ -22,6 +22,11 @@ std::unique_ptr<ElementGroup> make_group(const GroupInput& input) {
   return std::make_unique<ReducedBrick>(input);
 }
 
+/// Asks for the next pack's record while this one is computed; past the last one it is a hint without effect.
+void prefetch_record(const double* record) {
+  for (int k = 0; k < brick_record::size; ++k) __builtin_prefetch(record + pack_size * k);
+}
+
 const RegisterElement registered({.name = "C3D8R",
                                   .shape = Shape::hexahedron,
                                   .nodes = nodes_per_brick,
@@ -31,20 +36,6 @@ const RegisterElement registered({.name = "C3D8R",
                                   .make_group = make_group});
 
 }  // namespace
-
-/// Up to 64 elements between the two phases of a cycle, in L1.
-struct ReducedBrick::Batch {
-  std::int32_t first = 0;  // lane of the group
-  alignas(64) double coefficient[21][PointBatch<PointKind::solid>::capacity];
-  PointBatch<PointKind::solid> points;
-
-  HexahedronCoefficients<Pack> coefficients(int lane) const {
-    HexahedronCoefficients<Pack> c;
-    for (int k = 0; k < 7; ++k)
-      for (int i = 0; i < 3; ++i) c[k][i] = load(&coefficient[3 * k + i][lane]);
-    return c;
-  }
-};
 
 ReducedBrick::ReducedBrick(const GroupInput& input)
     : ElementGroup(input),
@@ -76,54 +67,43 @@ StableIncrement ReducedBrick::add_forces(Portion portion, const ExplicitCycle& c
   const std::int32_t last = portion == Portion::interface ? interface_padded_ : padded_size_;
   const bool damped = material_.damping_beta > 0.0 && cycle.increment > 0.0;
   if (damped)
-    return enhanced_ ? add_batches<true, true>(first, last, cycle, history)
-                     : add_batches<false, true>(first, last, cycle, history);
-  return enhanced_ ? add_batches<true, false>(first, last, cycle, history)
-                   : add_batches<false, false>(first, last, cycle, history);
+    return enhanced_ ? add_packs<true, true>(first, last, cycle, history)
+                     : add_packs<false, true>(first, last, cycle, history);
+  return enhanced_ ? add_packs<true, false>(first, last, cycle, history)
+                   : add_packs<false, false>(first, last, cycle, history);
 }
 
 template <bool enhanced, bool damped>
-StableIncrement ReducedBrick::add_batches(std::int32_t first, std::int32_t last, const ExplicitCycle& cycle,
-                                          std::span<double> history) const {
+StableIncrement ReducedBrick::add_packs(std::int32_t first, std::int32_t last, const ExplicitCycle& cycle,
+                                        std::span<double> history) const {
   StableIncrement smallest;
-  Batch batch;
-  batch.points.history_stride = padded_size_;
-  for (batch.first = first; batch.first < last; batch.first += batch.points.capacity) {
-    batch.points.count = std::min(last - batch.first, batch.points.capacity);
-    batch.points.history = history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + batch.first;
-    gather_batch(batch, cycle);
-    material_.law->stress(batch.points);
-    for (int lane = 0; lane < batch.points.count; lane += pack_size) {
-      const Pack increment = add_pack<enhanced, damped>(batch, lane, cycle, history);
-      if (std::experimental::all_of(increment >= smallest.increment)) continue;
-      for (int i = 0; i < pack_size; ++i) smallest.merge({increment[i], batch.first + lane + i});
-    }
+  PointBatch<PointKind::solid> points;
+  points.count =
+      pack_size;  // one pack at a time stays in L1 together with its record: measured faster than batches of 64
+  points.history_stride = padded_size_;
+  for (std::int32_t element = first; element < last; element += pack_size) {
+    points.history = history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + element;
+    const Pack increment = add_pack<enhanced, damped>(element, cycle, points, history);
+    if (std::experimental::all_of(increment >= smallest.increment)) continue;
+    for (int i = 0; i < pack_size; ++i) smallest.merge({increment[i], element + i});
   }
   return smallest;
 }
 
-void ReducedBrick::gather_batch(Batch& batch, const ExplicitCycle& cycle) const {
-  for (int lane = 0; lane < batch.points.count; lane += pack_size) {
-    const std::int32_t* nodes = connectivity_.data() + static_cast<std::size_t>(batch.first + lane) * nodes_per_brick;
-    std::array<Vector3<Pack>, nodes_per_brick> x;
-    for (int node = 0; node < nodes_per_brick; ++node) x[node] = gather(cycle.position, nodes + node, nodes_per_brick);
-    const HexahedronCoefficients<Pack> c = coefficients(x);
-    const PackReference reference{records_.data() + static_cast<std::size_t>(batch.first + lane) * brick_record::size};
-    const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
-    for (int k = 0; k < 7; ++k)
-      for (int i = 0; i < 3; ++i) store(c[k][i], &batch.coefficient[3 * k + i][lane]);
-    for (int k = 0; k < 9; ++k) store(f.component[k], &batch.points.strain[k][lane]);
-  }
-}
-
 template <bool enhanced, bool damped>
-Pack ReducedBrick::add_pack(const Batch& batch, int lane, const ExplicitCycle& cycle, std::span<double> history) const {
-  const std::size_t element = batch.first + lane;
-  const PackReference reference{records_.data() + element * brick_record::size};
-  const HexahedronCoefficients<Pack> c = batch.coefficients(lane);
-  Matrix3<Pack> f, stress;
-  for (int k = 0; k < 9; ++k) f.component[k] = load(&batch.points.strain[k][lane]);
-  for (int k = 0; k < 9; ++k) stress.component[k] = load(&batch.points.stress[k][lane]);
+[[gnu::flatten]] Pack ReducedBrick::add_pack(std::int32_t element, const ExplicitCycle& cycle,
+                                             PointBatch<PointKind::solid>& points, std::span<double> history) const {
+  const PackReference reference{records_.data() + static_cast<std::size_t>(element) * brick_record::size};
+  prefetch_record(reference.data + pack_size * brick_record::size);
+  const std::int32_t* nodes = connectivity_.data() + static_cast<std::size_t>(element) * nodes_per_brick;
+  std::array<Vector3<Pack>, nodes_per_brick> x;
+  for (int node = 0; node < nodes_per_brick; ++node) x[node] = gather(cycle.position, nodes + node, nodes_per_brick);
+  const HexahedronCoefficients<Pack> c = coefficients(x);
+  const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
+  for (int k = 0; k < 9; ++k) store(f.component[k], points.strain[k]);
+  material_.law->stress(points);
+  Matrix3<Pack> stress;
+  for (int k = 0; k < 9; ++k) stress.component[k] = load(points.stress[k]);
   const Pack volume = reference[brick_record::volume], length = reference[brick_record::length];
   const Invariants<Pack> invariant = invariants(f);
 
@@ -141,7 +121,6 @@ Pack ReducedBrick::add_pack(const Batch& batch, int lane, const ExplicitCycle& c
   const std::array<Vector3<Pack>, 4> q = hourglass_vectors(c, f, reference);
   HexahedronCoefficients<Pack> conjugates;
   if constexpr (damped) {
-    const std::int32_t* nodes = connectivity_.data() + element * nodes_per_brick;
     std::array<Vector3<Pack>, nodes_per_brick> v;
     for (int node = 0; node < nodes_per_brick; ++node) v[node] = gather(cycle.velocity, nodes + node, nodes_per_brick);
     const BrickMotion<Pack> motion{c, f, q};
@@ -154,13 +133,13 @@ Pack ReducedBrick::add_pack(const Batch& batch, int lane, const ExplicitCycle& c
     conjugates = conjugates_with_scalar(scalar_hourglass_forces(q, reference), stress, reference);
   }
   const std::array<Vector3<Pack>, nodes_per_brick> forces = nodal_forces(conjugates);
-  const std::int32_t* targets = scatter_.data() + element * nodes_per_brick;
+  const std::int32_t* targets = scatter_.data() + static_cast<std::size_t>(element) * nodes_per_brick;
   for (int node = 0; node < nodes_per_brick; ++node)
     scatter_subtract(forces[node], targets + node, nodes_per_brick, cycle.force);
 
   invariant.jacobian.copy_to(&history[element], std::experimental::element_aligned);
   dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
-  const TangentBound<Pack> bound{load(&batch.points.volumetric_modulus[lane]), load(&batch.points.shear_modulus[lane])};
+  const TangentBound<Pack> bound{load(points.volumetric_modulus), load(points.shear_modulus)};
   const BrickStability stability{material_.density, damped ? material_.damping_beta : 0.0};
   return stability.increment(invariant, bound, q, viscosity.slope(length, rate), reference);
 }

@@ -30,14 +30,13 @@ class ReducedBrick final : public ElementGroup {
 
  private:
   static constexpr int own_history = 2;  // Jacobian after the last increment, viscous dissipation; then the law's
-  struct Batch;
 
   template <bool enhanced, bool damped>
-  StableIncrement add_batches(std::int32_t first, std::int32_t last, const ExplicitCycle& cycle,
-                              std::span<double> history) const;
-  void gather_batch(Batch& batch, const ExplicitCycle& cycle) const;
+  StableIncrement add_packs(std::int32_t first, std::int32_t last, const ExplicitCycle& cycle,
+                            std::span<double> history) const;
   template <bool enhanced, bool damped>
-  Pack add_pack(const Batch& batch, int lane, const ExplicitCycle& cycle, std::span<double> history) const;
+  Pack add_pack(std::int32_t element, const ExplicitCycle& cycle, PointBatch<PointKind::solid>& points,
+                std::span<double> history) const;
 
   /// Force (and stiffness) of one element over any scalar: T = double or Dual<24>.
   template <class T>
