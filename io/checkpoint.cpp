@@ -202,10 +202,11 @@ void read_header(const Hdf5File& file, const std::string& path, const Model& mod
 }
 
 void read_bodies(const Hdf5File& file, State& state) {
-  const std::vector<double> motions = file.read("/rigid_bodies");
+  const std::vector<double> motions = file.exists("/rigid_bodies") ? file.read("/rigid_bodies") : std::vector<double>{};
   state.rigid_bodies.resize(motions.size() / body_values);
   for (std::size_t b = 0; b < state.rigid_bodies.size(); ++b) {
     RigidBodyState& body = state.rigid_bodies[b] = unpack_body(motions.data() + b * body_values);
+    if (!file.exists(fmt::format("/rigid_{}_nodes", b))) continue;  // a body that carries no nodes
     const auto nodes = file.read_integers(fmt::format("/rigid_{}_nodes", b));
     const auto offsets = file.read(fmt::format("/rigid_{}_offsets", b));
     for (std::size_t i = 0; i < nodes.size() / 2; ++i) {

@@ -221,11 +221,11 @@ std::int64_t Hdf5File::integer_attribute(const std::string& object, const std::s
 
 void Hdf5File::write_values(const std::string& path, const Extent& shape, hid_t stored, hid_t memory,
                             const void* values) const {
+  if (std::find(shape.begin(), shape.end(), 0) != shape.end()) return;
   const Hdf5Id space = space_of(shape);
   const Hdf5Id properties = dataset_properties(shape, H5Tget_size(stored), true);
   const Hdf5Id dataset(H5Dcreate2(file_, path.c_str(), stored, space, link_properties(), properties, H5P_DEFAULT));
-  const bool empty = H5Sget_simple_extent_npoints(space) == 0;
-  if (!dataset.valid() || (!empty && H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0)) {
+  if (!dataset.valid() || H5Dwrite(dataset, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, values) < 0) {
     fail("take " + path);
   }
 }

@@ -65,6 +65,7 @@ class Hdf5File {
   double number_attribute(const std::string& object, const std::string& name) const;
   std::int64_t integer_attribute(const std::string& object, const std::string& name) const;
 
+  /// No values make no dataset: tools such as h5diff stumble over empty ones.
   void write(const std::string& path, const Extent& shape, std::span<const double> values) const;
   void write(const std::string& path, const Extent& shape, std::span<const std::int32_t> values) const;
   void write(const std::string& path, const Extent& shape, std::span<const std::int64_t> values) const;

@@ -165,6 +165,7 @@ void ParallelFile::link(const Hdf5Id& group, const std::string& path) {
 
 void ParallelFile::write(hid_t parent, const std::string& name, const RowExchange& exchange, std::span<const double> slab,
                          const Layout& layout) {
+  if (exchange.total() == 0) return;
   const bool single = layout.precision == Precision::single_;
   const hid_t stored_type = single ? H5T_IEEE_F32LE : H5T_IEEE_F64LE;
   const Extent total = extent_of(exchange.total(), layout.columns);
@@ -172,7 +173,6 @@ void ParallelFile::write(hid_t parent, const std::string& name, const RowExchang
   const Hdf5Id properties = dataset_properties(total, single ? 4 : 8, layout.compressed);
   const Hdf5Id dataset(H5Dcreate2(parent, name.c_str(), stored_type, space, H5P_DEFAULT, properties, H5P_DEFAULT));
   expect(dataset.valid(), "take " + name);
-  if (exchange.total() == 0) return;
   const Hdf5Id memory = select_slab(space, exchange, total);
   // Converted here: a type conversion inside HDF5 would make the write independent, which compressed data forbid.
   const std::vector<float> narrowed = single ? std::vector<float>(slab.begin(), slab.end()) : std::vector<float>();
@@ -183,6 +183,7 @@ void ParallelFile::write(hid_t parent, const std::string& name, const RowExchang
 }
 
 std::vector<double> ParallelFile::read(const std::string& path, const RowExchange& exchange, int columns) {
+  if (exchange.total() == 0) return {};
   const Hdf5Id dataset(H5Dopen2(file_, path.c_str(), H5P_DEFAULT));
   expect(dataset.valid(), "give " + path);
   agree();
@@ -195,7 +196,6 @@ std::vector<double> ParallelFile::read(const std::string& path, const RowExchang
          fmt::format("give {}: its size does not fit this model", path));
   agree();
   std::vector<double> slab(exchange.slab_size() * columns);
-  if (exchange.total() == 0) return slab;
   const Hdf5Id memory = select_slab(space, exchange, total);
   const herr_t status = H5Dread(dataset, H5T_NATIVE_DOUBLE, memory, space, collective_transfer(), slab.data());
   expect(status >= 0, "give " + path);

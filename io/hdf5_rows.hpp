@@ -58,7 +58,7 @@ class ParallelFile {
   void link(const Hdf5Id& group, const std::string& path);
 
   enum class Precision { single_, double_ };
-  /// Dataset of all the exchange's rows, (rows, columns...) or (rows) if `columns` is empty, from this rank's slab.
+  /// Dataset of all the exchange's rows (none where there are none), (rows, columns...) or (rows) if `columns` is empty, from this rank's slab.
   struct Layout {
     std::vector<hsize_t> columns;
     Precision precision = Precision::double_;

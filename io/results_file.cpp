@@ -22,6 +22,7 @@ ResultsIndex index_of(const Model& model) {
   ResultsIndex index;
   index.nodes = static_cast<hsize_t>(model.nodes.size());
   for (const ElementTable& table : model.elements) {
+    if (table.size() == 0) continue;
     index.blocks.push_back({table.type->name, static_cast<hsize_t>(table.size()), static_cast<hsize_t>(table.type->nodes)});
   }
   return index;

@@ -40,6 +40,7 @@ void write_tables(const Hdf5File& file, const Model& model) {
   file.write("/mesh/node/coordinates", {nodes, 3}, flat(model.nodes.coordinates));
   file.create_group("/mesh/element");
   for (const ElementTable& table : model.elements) {
+    if (table.size() == 0) continue;
     const std::string group = "/mesh/element/" + table.type->name;
     const auto rows = static_cast<hsize_t>(table.size());
     file.create_group(group);

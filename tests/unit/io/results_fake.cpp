@@ -1,5 +1,7 @@
 #include "results_fake.hpp"
 
+#include <unistd.h>
+
 #include <cmath>
 
 namespace balocco::fake {
@@ -240,16 +242,30 @@ ContactResultant Analysis::contact(std::int32_t) const {
   return resultant;
 }
 
+namespace {
+
+/// Named after root's process, for several programs may run at once.
+std::filesystem::path parent_folder() {
+  int process = ::getpid();
+  MPI_Bcast(&process, 1, MPI_INT, 0, MPI_COMM_WORLD);
+  return std::filesystem::temp_directory_path() / ("balocco_tests_" + std::to_string(process));
+}
+
+}  // namespace
+
 std::string folder(const std::string& name) {
-  const auto path = std::filesystem::temp_directory_path() / ("balocco_" + name);
-  int rank = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &rank);
-  if (rank == 0) {
-    std::filesystem::remove_all(path);
-    std::filesystem::create_directories(path);
-  }
-  MPI_Barrier(MPI_COMM_WORLD);
+  const auto path = parent_folder() / name;
+  const Communicator world;
+  if (world.is_root()) std::filesystem::create_directories(path);
+  MPI_Barrier(world.handle());
   return path.string();
+}
+
+void remove_folders() {
+  const Communicator world;
+  MPI_Barrier(world.handle());
+  const auto path = parent_folder();
+  if (world.is_root()) std::filesystem::remove_all(path);
 }
 
 }  // namespace balocco::fake

@@ -83,7 +83,8 @@ class Analysis : public ResultSource {
   State current;
 };
 
-/// A fresh folder for a test, the same on every rank; rank counts share it.
+/// A fresh folder for a test, the same on every rank, and no other program's; and its removal with all others.
 std::string folder(const std::string& name);
+void remove_folders();
 
 }  // namespace balocco::fake

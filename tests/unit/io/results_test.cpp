@@ -103,6 +103,8 @@ class Results : public testing::Test {
   Communicator world;
   Model model = fake::model(40);
 
+  void TearDown() override { fake::remove_folders(); }
+
   /// Runs the whole job on `ranks`, in `directory`.
   void run_job(const Communicator& ranks, const std::string& directory) {
     fake::Analysis analysis(model, ranks);
