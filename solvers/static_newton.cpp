@@ -82,6 +82,7 @@ void StaticNewton::start(const IncrementGoal& goal) {
   history_.clear();
   discontinuous_ = 0;
   augmentations_ = 0;
+  iterations_before_ = 0;
   largest_correction_ = largest_increment_ = 0.0;
   if (goal.guess.empty()) return;
   find_remaining_motion(goal);
@@ -172,7 +173,7 @@ bool StaticNewton::at_round_off(const Norms& now) const {
 bool StaticNewton::gives_up(const IncrementGoal& goal, const Norms& now, NewtonResult& result) {
   if (result.iterations > 0 && system_.changed_points() > 0 && discontinuous_ < discontinuous_iterations)
     ++discontinuous_;
-  const int counted = result.iterations - discontinuous_;
+  const int counted = result.iterations - iterations_before_ - discontinuous_;
   const auto n = history_.size();
   const bool grows =
       n >= 4 && history_[n - 1] > history_[n - 2] && history_[n - 2] > history_[n - 3] && system_.changed_points() == 0;
@@ -303,7 +304,7 @@ void StaticNewton::measure_correction(double factor) {
 }
 
 /// Augments the contact's multipliers where it penetrates too far.
-bool StaticNewton::penetrates(const IncrementGoal& goal, NewtonResult& result) {
+bool StaticNewton::penetrates(const IncrementGoal& goal, const NewtonResult& result) {
   if (!system_.has_contact() || augmentations_ >= most_augmentations) return false;
   const double allowed = (goal.ends_step ? penetration_tolerance : passing_penetration_tolerance) * contact_length_;
   const double penetration = system_.greatest_penetration();
@@ -314,7 +315,7 @@ bool StaticNewton::penetrates(const IncrementGoal& goal, NewtonResult& result) {
   discontinuous_ = 0;
   history_.clear();
   // Each augmentation is a new problem, with its own right to iterate.
-  result.iterations = std::min(result.iterations, 1);
+  iterations_before_ = result.iterations - 1;
   return true;
 }
 

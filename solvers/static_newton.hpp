@@ -74,7 +74,7 @@ class StaticNewton {
   bool solve_held_back(const IncrementGoal& goal);
   bool stands_alone(const IncrementGoal& goal);
   bool search_line(const IncrementGoal& goal);
-  bool penetrates(const IncrementGoal& goal, NewtonResult& result);
+  bool penetrates(const IncrementGoal& goal, const NewtonResult& result);
   bool gives_up(const IncrementGoal& goal, const Norms& now, NewtonResult& result);
   void measure_correction(double factor);
   void log_iteration(const NewtonResult& result, const Norms& now) const;
@@ -95,6 +95,7 @@ class StaticNewton {
   double greatest_reference_ = 0.0;  // in this step
   std::vector<double> history_;      // of residual norms in this increment
   int discontinuous_ = 0, augmentations_ = 0;
+  int iterations_before_ = 0;  // the last augmentation
   double contact_length_ = 0.0;
   double assembly_seconds_ = 0.0;
   std::string mechanism_;
