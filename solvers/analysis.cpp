@@ -65,6 +65,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
   for (std::int32_t node = 0; node < domain.size(); ++node)
     std::copy_n(model.nodes.coordinates[domain.node_row[node]].data(), 3, &current.position[4 * node]);
   current.nodal_work.resize(domain.size());
+  work_ahead.resize(domain.size());
   for (const auto& group : element_groups) current.element_history.push_back(group->initial_history());
   for (const auto& pair : contacts) current.contact.emplace_back(pair.size());
   current.rigid_bodies = initial_rigid_bodies(model);

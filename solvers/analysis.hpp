@@ -52,6 +52,9 @@ class Analysis : public ResultSource {
   std::vector<double> reaction;        // 4 a node: force that constraints exert
   std::vector<std::array<double, 6>> body_reaction;      // per rigid body: reaction force and moment at the reference node
   std::vector<Point> body_angular_acceleration;          // per rigid body
+  /// Explicit: work that State::nodal_work already counts although it belongs to the first half of the increment to come, as
+  /// velocities do; per local node, filled with the other output.
+  std::vector<NodalWork> work_ahead;
 
   const State& state() const override { return current; }
   std::span<const std::unique_ptr<ElementGroup>> groups() const override { return element_groups; }

@@ -216,6 +216,8 @@ EnergyBalance Analysis::energies() const {
     sums[kinetic].add(0.5 * nodal_mass[node] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
     sums[work].add(current.nodal_work[node].external);
     sums[viscous].add(current.nodal_work[node].damping);
+    sums[work].add(-work_ahead[node].external);
+    sums[viscous].add(-work_ahead[node].damping);
   }
   sums[kinetic].add(kinetic_energy_of_rotary_inertia());
   for_each_contact_point(*this, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint& point) {

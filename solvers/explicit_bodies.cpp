@@ -294,14 +294,18 @@ void RigidDynamics::advance(Analysis& analysis, double increment) const {
   }
 }
 
-void RigidDynamics::add_to_output(Analysis& analysis) const {
+void RigidDynamics::add_to_output(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const auto& body = bodies_[i];
     const auto [force, moment] = global(body.axes, body.reaction);
+    const auto& state = analysis.current.rigid_bodies[i];
+    const double power =
+        dot(force, vector(state.velocity)) + dot(moment + vector(moments[i]), vector(state.angular_velocity));
+    analysis.work_ahead[body.reference].external += 0.5 * instant.next * power;
     analysis.body_reaction[i] = {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
     const auto [linear, angular] = global(body.axes, body.acceleration);
     analysis.body_angular_acceleration[i] = angular.component;
-    const auto rotation = rotation_matrix(analysis.current.rigid_bodies[i]);
+    const auto rotation = rotation_matrix(state);
     for (const auto& carried : body.nodes) {
       const auto arm = rotation * vector(carried.offset);
       const auto acceleration = linear + cross(angular, arm) + cross(body.spin, cross(body.spin, arm));

@@ -39,8 +39,8 @@ class RigidDynamics {
   /// Moves bodies over an increment and puts their nodes where they belong.
   void advance(Analysis& analysis, double increment) const;
 
-  /// Reactions and accelerations of bodies and of their nodes, for output.
-  void add_to_output(Analysis& analysis) const;
+  /// Reactions, their work ahead, and accelerations of bodies and of their nodes, for output.
+  void add_to_output(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments) const;
 
   /// Squares of the unbalanced forces on free degrees of freedom and of the reactions; moments count with 1 / reach of
   /// the body.

@@ -129,9 +129,10 @@ void NodalConstraints::enforce(Analysis& analysis, const Instant& instant) const
   }
 }
 
-void NodalConstraints::add_to_output(Analysis& analysis) const {
+void NodalConstraints::add_to_output(Analysis& analysis, const Instant& instant) const {
   for (const auto& constraint : constraints_) {
     add(&analysis.reaction[4 * constraint.node], constraint.reaction, constraint.direction);
+    analysis.work_ahead[constraint.node].external += 0.5 * instant.next * constraint.reaction * constraint.new_velocity;
     const double mass = analysis.nodal_mass[constraint.node];
     if (mass > 0.0) add(&analysis.acceleration[4 * constraint.node], constraint.reaction / mass, constraint.direction);
   }

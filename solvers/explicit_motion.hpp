@@ -39,8 +39,8 @@ class NodalConstraints {
   /// After velocities changed: sets the prescribed components and adds the work of the reactions.
   void enforce(Analysis& analysis, const Instant& instant) const;
 
-  /// Adds reactions, and what they do to accelerations, to the analysis' arrays for output.
-  void add_to_output(Analysis& analysis) const;
+  /// Adds reactions, what they do to accelerations, and their work ahead, to the analysis' arrays for output.
+  void add_to_output(Analysis& analysis, const Instant& instant) const;
   /// Takes the constrained components out of a nodal vector (4 a node).
   void remove_constrained(double* vector) const;
   /// Sum of the squares of those components on owned nodes.

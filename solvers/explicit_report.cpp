@@ -15,8 +15,10 @@ void ExplicitStep::fill_output() {
     std::fill(analysis_.reaction.begin(), analysis_.reaction.end(), 0.0);
     for (std::size_t node = 0; node < inverse_mass_.size(); ++node)
       for (std::size_t c = 0; c < 3; ++c) acceleration[4 * node + c] = inverse_mass_[node] * force_[4 * node + c];
-    constraints_.add_to_output(analysis_);
-    bodies_.add_to_output(analysis_);
+    std::fill(analysis_.work_ahead.begin(), analysis_.work_ahead.end(), NodalWork{});
+    add_half_work(next_increment_, analysis_.work_ahead);
+    constraints_.add_to_output(analysis_, instant());
+    bodies_.add_to_output(analysis_, instant(), moments_);
   });
 }
 

@@ -245,29 +245,29 @@ void ExplicitStep::report_collapse() {
       scale_.reference_increment));
 }
 
-void ExplicitStep::add_half_work(double increment) {
+void ExplicitStep::add_half_work(double increment, std::vector<NodalWork>& work) const {
   const double half = 0.5 * increment;
-  auto& state = analysis_.current;
+  const auto& state = analysis_.current;
   const auto power = [&](const std::vector<double>& force, std::size_t node) {
     const double *f = &force[4 * node], *v = &state.velocity[4 * node];
     return f[0] * v[0] + f[1] * v[1] + f[2] * v[2];
   };
-  for (const auto node : loaded_nodes_) state.nodal_work[node].external += half * power(external_force_, node);
+  for (const auto node : loaded_nodes_) work[node].external += half * power(external_force_, node);
   for (std::size_t node = 0; 4 * node < damping_force_.size(); ++node)
-    state.nodal_work[node].damping += half * power(damping_force_, node);
+    work[node].damping += half * power(damping_force_, node);
 }
 
 void ExplicitStep::update_velocities() {
   auto& state = analysis_.current;
   const Instant now = instant();
   timers.measure(Phase::update, [&] {
-    add_half_work(now.previous);
+    add_half_work(now.previous, state.nodal_work);
     constraints_.find_reactions(analysis_, step_, now, force_.data());
     if (!kick(state.velocity, force_, inverse_mass_, now.average())) remember_blow_up();
     constraints_.enforce(analysis_, now);
   });
   timers.measure(Phase::bodies, [&] { bodies_.accelerate(analysis_, now, moments_); });
-  timers.measure(Phase::update, [&] { add_half_work(now.next); });
+  timers.measure(Phase::update, [&] { add_half_work(now.next, state.nodal_work); });
   state.time_increment = next_increment_;
 }
 

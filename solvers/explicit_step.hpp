@@ -54,7 +54,8 @@ class ExplicitStep {
   void add_elements(Portion portion);
   void refuse_loads_without_inertia() const;
   void find_loaded_nodes();
-  void add_half_work(double increment);
+  /// Adds the work of external and damping forces over half an increment.
+  void add_half_work(double increment, std::vector<NodalWork>& work) const;
   void remember_blow_up();
   [[noreturn]] void report_collapse();
   Progress progress() const;

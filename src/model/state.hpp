@@ -34,7 +34,7 @@ struct ContactPoint {
   double frictional_dissipation = 0.0;
 };
 
-/// Work done up to now on a node, by kind. Copies of a shared node hold the same bits; sums are taken over owners.
+/// Work done on a node, by kind: up to now, explicit: up to the middle of the increment to come. Copies of a shared node hold the same bits; sums are taken over owners.
 struct NodalWork {
   double external = 0.0;  // loads, prescribed motion and reactions
   double damping = 0.0;   // mass-proportional Rayleigh damping

@@ -1,0 +1,296 @@
+#!/usr/bin/env python3
+"""Explicit dynamics against closed forms: runs the real binary on small decks and checks what it wrote.
+
+usage: explicit_cases.py CASE BALOCCO RANKS FOLDER      exit status 0: everything within tolerance
+"""
+import math
+import os
+import pathlib
+import subprocess
+import sys
+
+import h5py
+import numpy as np
+
+DECKS = pathlib.Path(__file__).parent / "decks"
+
+
+class Job:
+    """A deck run in a fresh folder, and its results."""
+
+    def __init__(self, name, balocco, ranks, folder):
+        self.name, self.balocco, self.ranks, self.folder = name, balocco, ranks, pathlib.Path(folder)
+        self.folder.mkdir(parents=True, exist_ok=True)
+
+    def run(self, text=None, expected_status=0):
+        deck = self.folder / f"{self.name}.inp"
+        deck.write_text(text if text is not None else (DECKS / f"{self.name}.inp").read_text())
+        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
+        command = ["mpirun", "--oversubscribe", "-n", self.ranks, self.balocco, "run", str(deck), "--output", str(self.folder)]
+        done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=150)
+        if done.returncode != expected_status:
+            sys.exit(f"exit status {done.returncode}, expected {expected_status}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
+        return done.stdout + done.stderr
+
+    def history(self, group, variable, step=1):
+        with h5py.File(self.folder / f"{self.name}.h5") as file:
+            history = file[f"step_{step}/history/{group}"]
+            return np.array(history["time"]), np.array(history[variable])
+
+    def frame(self, variable, frame, step=1):
+        """Nodal values of a frame; -1: the last."""
+        with h5py.File(self.folder / f"{self.name}.h5") as file:
+            frames = sorted((k for k in file[f"step_{step}"] if k.startswith("frame_")), key=lambda k: int(k[6:]))
+            return np.array(file[f"step_{step}/{frames[frame]}/node/{variable}"])
+
+    def mesh(self, element_type):
+        with h5py.File(self.folder / f"{self.name}.h5") as file:
+            return (np.array(file["mesh/node/coordinates"]), np.array(file[f"mesh/element/{element_type}/connectivity"]))
+
+    def log(self):
+        return (self.folder / f"{self.name}.log").read_text()
+
+
+failures = []
+
+
+def check(what, value, reference, tolerance):
+    """|value - reference| <= tolerance * |reference| (absolute where the reference is zero)."""
+    scale = abs(reference) if reference != 0.0 else 1.0
+    good = abs(value - reference) <= tolerance * scale
+    print(f"{'ok  ' if good else 'FAIL'} {what}: {value:.8g}, expected {reference:.8g} within {tolerance:g}")
+    if not good:
+        failures.append(what)
+
+
+def check_energy(job, tolerance, steps=(1,)):
+    """The drift of ETOTAL against the largest energy (VERIFY.md: 0.1 % elastic, 1 % with penalty contact)."""
+    for step in steps:
+        total = job.history("energy", "ETOTAL", step)[1]
+        largest = max(np.abs(job.history("energy", name, step)[1]).max() for name in ("ALLKE", "ALLIE", "ALLWK"))
+        check(f"energy drift in step {step}", np.abs(total - total[0]).max() / largest, 0.0, tolerance)
+
+
+def truss_stability(job):
+    """DT-T3D2: the critical increment of a free lumped truss is L / c = 1.933415e-5 exactly."""
+    critical = 0.1 * math.sqrt(7850.0 / 210e9)
+    template = (DECKS / "truss_stability.inp").read_text()
+    job.run(template.replace("INCREMENT", f"{0.999 * critical:.12e}"))
+    # Starting from rest with velocity v, x(n) = v dt sin(n t) / sin(t), cos(t) = 1 - 2 * 0.999^2: at most v dt / sin(t) / 2 each way.
+    angle = math.acos(1.0 - 2.0 * 0.999**2)
+    stretch = job.history("node_2", "U1")[1] - job.history("node_1", "U1")[1]
+    check("largest stretch below the limit", np.abs(stretch).max(), 1e-6 * 0.999 * critical / math.sin(angle), 0.02)
+    # Beyond the limit the amplitude grows by exp(acosh(2 * 1.001^2 - 1)) an increment until the run is stopped.
+    output = job.run(template.replace("INCREMENT", f"{1.001 * critical:.12e}"), expected_status=3)
+    check("blow-up is told with node and element", float("blown up at node" in output and "of element 1" in output), 1.0, 0.0)
+
+
+def rod_impact(job):
+    """RODS: half of the symmetric impact, a rod at 5 m/s against a rigid wall; one-dimensional wave theory."""
+    job.run()
+    speed, density, velocity = math.sqrt(200e9 / 7800.0), 7800.0, 5.0
+    time, force = job.history("node_1000", "RF1")
+    duration, area = 2.0 / speed, 1e-4
+    plateau = force[(time > 0.2 * duration) & (time < 0.8 * duration)]
+    check("mean stress during contact", abs(plateau.mean()) / area, density * speed * velocity, 0.02)
+    impulse = abs(np.sum(0.5 * (force[1:] + force[:-1]) * np.diff(time)))
+    check("impulse", impulse, 2.0 * density * area * velocity, 0.01)
+    touching = time[np.abs(force) > 0.5 * np.abs(force).max()]
+    # The contact spring and 100 elements smear both ends over about two elements' transit time.
+    check("duration of contact", touching[-1] - touching[0], duration, 0.04)
+    check("exit velocity of the middle", job.history("node_51", "V1")[1][-50:].mean(), velocity, 0.02)
+    check_energy(job, 1e-2)
+
+
+def free_flight(job):
+    """A soft block tumbles freely: momentum and angular momentum stay to round-off, energy to 0.1 %."""
+    job.run()
+    coordinates, bricks = job.mesh("C3D8R")
+    mass = np.zeros(len(coordinates))
+    np.add.at(mass, bricks.ravel(), 1000.0 * 0.1**3 / len(bricks) / 8.0)  # equal cubes of a block of 0.1 m
+    momenta, spins = [], []
+    for frame in range(11):
+        position, velocity = coordinates + job.frame("U", frame), job.frame("V", frame)
+        momenta.append(mass @ velocity)
+        spins.append(mass @ np.cross(position, velocity))
+    momentum, spin = np.array(momenta), np.array(spins)
+    check("drift of momentum", np.abs(momentum - momentum[0]).max() / np.abs(momentum[0]).max(), 0.0, 1e-12)
+    check("drift of angular momentum", np.abs(spin - spin[0]).max() / np.abs(spin[0]).max(), 0.0, 1e-11)
+    check("momentum", momentum[-1][0], 1000.0 * 0.1**3 * 20.0, 1e-12)
+    check_energy(job, 1e-3)
+
+
+def spun_block(job):
+    """A block carried by a driven rigid body turns 3 times: nothing strains, the axis carries the centripetal force."""
+    job.run()
+    kinetic, internal = job.history("energy", "ALLKE")[1], job.history("energy", "ALLIE")[1]
+    check("strain energy of a rigid rotation", np.abs(internal).max() / kinetic.max(), 0.0, 1e-12)
+    mass, spin = 1000.0 * 0.1**3, 2.0 * math.pi * 10.0
+    arm = 0.05 * math.sqrt(2.0)
+    reaction = job.frame("RF", -1)
+    reference = np.abs(reaction).sum(axis=1).argmax()
+    check("centripetal force", np.linalg.norm(reaction[reference]), mass * spin**2 * arm, 1e-5)
+    check("rotation after three turns", job.frame("UR", -1)[reference][2], 6.0 * math.pi, 1e-9)
+
+
+def pendulum(job):
+    """PEND: L = 1, g = 9.81, released at 90 degrees: period 2.36784 s, greatest speed 4.42945 m/s (elliptic integral)."""
+    job.run()
+    time, x = job.history("node_2", "U1")
+    across = 1.0 + x  # zero at the bottom
+    falls = [i for i in range(len(time) - 1) if across[i] > 0.0 >= across[i + 1]]
+    rises = [i for i in range(len(time) - 1) if across[i] < 0.0 <= across[i + 1]]
+    crossing = lambda i: time[i] + (time[i + 1] - time[i]) * across[i] / (across[i] - across[i + 1])
+    check("quarter period", crossing(falls[0]), 2.36784 / 4.0, 1e-3)
+    check("half a period between passes", crossing(rises[0]) - crossing(falls[0]), 2.36784 / 2.0, 1e-3)
+    speed = np.linalg.norm(job.history("node_2", "V")[1], axis=1)
+    check("greatest speed", speed.max(), 4.42945, 1e-3)
+    check_energy(job, 1e-3)
+
+
+def dzhanibekov(job):
+    """A free rigid body with inertia 1, 2, 3 spins about its middle axis and flips. Reference: Euler's equations by RK4."""
+    job.run()
+    time, spin = job.history("node_1", "VR")
+    inertia = np.diag([1.0, 2.0, 3.0])
+
+    def rate(state):
+        w, rotation = state[:3], state[3:].reshape(3, 3)  # spin in the body's frame
+        change = np.linalg.solve(inertia, np.cross(inertia @ w, w))
+        skew = np.array([[0, -w[2], w[1]], [w[2], 0, -w[0]], [-w[1], w[0], 0]])
+        return np.concatenate([change, (rotation @ skew).ravel()])
+
+    state, now, reference = np.concatenate([[0.05, 3.0, 0.0], np.eye(3).ravel()]), 0.0, []
+    for t in time:
+        steps = max(1, math.ceil((t - now) / 1e-3))
+        h = (t - now) / steps
+        for _ in range(steps if h > 0.0 else 0):
+            a = rate(state)
+            b = rate(state + 0.5 * h * a)
+            c = rate(state + 0.5 * h * b)
+            d = rate(state + h * c)
+            state = state + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+        now = t
+        reference.append(state[3:].reshape(3, 3) @ state[:3])
+    reference = np.array(reference)
+    # The flip amplifies the error of the increments (0.2 % of a period): compare the whole history.
+    check("spin over three flips, worst difference / 3", np.abs(spin - reference).max() / 3.0, 0.0, 0.02)
+    kinetic = job.history("energy", "ALLKE")[1]
+    check("kinetic energy", np.abs(kinetic - kinetic[0]).max() / kinetic[0], 0.0, 2e-3)
+
+
+def rolling_deck(inertia):
+    """A rigid ring of radius 0.1 m and 720 strips, mass 1, slides at 10 m/s on a plane with mu = 0.4."""
+    lines = ["*HEADING", "Skidding ring", "*NODE"]
+    count, radius = 720, 0.1
+    for side, z in ((0, -0.01), (1, 0.01)):
+        for i in range(count):
+            angle = 2.0 * math.pi * i / count
+            lines.append(f"{side * 1000 + i + 1}, {radius * math.sin(angle):.15g}, {-radius * math.cos(angle):.15g}, {z}")
+    lines += ["9001, 0., 0., 0.", "9002, 0., -0.1, 0.", "*ELEMENT, TYPE=M3D4R, ELSET=RING"]
+    for i in range(count):
+        j = (i + 1) % count
+        lines.append(f"{i + 1}, {i + 1}, {1001 + i}, {1001 + j}, {j + 1}")
+    lines += f"""*ELEMENT, TYPE=MASS, ELSET=HUB
+2001, 9001
+*ELEMENT, TYPE=ROTARYI, ELSET=SPIN
+2002, 9001
+*MASS, ELSET=HUB
+1.
+*ROTARY INERTIA, ELSET=SPIN
+{inertia}, {inertia}, {inertia}
+*MEMBRANE SECTION, ELSET=RING, MATERIAL=SKIN
+0.001
+*MATERIAL, NAME=SKIN
+*ELASTIC
+1e9, 0.3
+*DENSITY
+0.1
+*NSET, NSET=HUB
+9001
+*SURFACE, NAME=TREAD
+RING, SPOS
+*SURFACE, NAME=GROUND, TYPE=SEGMENTS
+START, -10., -0.1
+LINE, 100., -0.1
+*RIGID BODY, REF NODE=9001, ELSET=RING
+*RIGID BODY, REF NODE=9002, ANALYTICAL SURFACE=GROUND
+*SURFACE INTERACTION, NAME=GRIP
+*FRICTION
+0.4
+*CONTACT PAIR, INTERACTION=GRIP
+TREAD, GROUND
+*BOUNDARY
+9002, 1, 6
+9001, 3, 5
+*INITIAL CONDITIONS, TYPE=VELOCITY
+HUB, 1, 10.
+*STEP
+*DYNAMIC, EXPLICIT, DIRECT USER CONTROL
+1e-4, 1.6
+*DLOAD
+, GRAV, 9.81, 0., -1., 0.
+*OUTPUT, HISTORY, TIME INTERVAL=0.002
+*NODE OUTPUT, NSET=HUB
+U, V, VR
+*ENERGY OUTPUT
+ALLKE, ALLIE, ALLWK, ALLFD, ETOTAL
+*END STEP""".splitlines()
+    return "\n".join(lines) + "\n"
+
+
+def skid(job):
+    """SKID: the end of sliding of a skidding ring and disc: v = v0 / (1 + I / m r2), t = v0 (I / m r2) / (mu g (1 + I / m r2))."""
+    for name, inertia, speed, end in (("hoop", 0.01, 5.0, 1.27421), ("disc", 0.005, 6.66667, 0.84947)):
+        job.run(rolling_deck(inertia))
+        time, velocity = job.history("node_9001", "V")
+        spin = job.history("node_9001", "VR")[1][:, 2]
+        check(f"{name}: speed when rolling", velocity[-50:, 0].mean(), speed, 0.01)
+        check(f"{name}: spin when rolling", -0.1 * spin[-50:].mean(), speed, 0.01)
+        half = np.interp(0.5 * (10.0 + speed), velocity[::-1, 0], time[::-1])
+        check(f"{name}: time to half the loss of speed", half, 0.5 * end, 0.01)
+        check_energy(job, 1e-2)
+
+
+def sliding_block(job):
+    """SLIDE: a rubber block at rest under gravity on a plane (static) is thrown at 1 m/s: it stops after v0^2 / (2 mu g)."""
+    job.run()
+    start = next(line for line in job.log().splitlines() if "starts with" in line)
+    check("imbalance when the explicit step starts", float(start.split("= ")[1].split()[0]), 0.0, 1e-8)
+    distance = job.frame("U", -1, step=2)[:, 0].mean() - job.frame("U", 0, step=2)[:, 0].mean()
+    check("stopping distance", distance, 1.0 / (2.0 * 0.5 * 9.81), 0.02)
+    heat = job.history("energy", "ALLFD", 2)[1]
+    check("heat", heat[-1] - heat[0], 0.5 * 1000.0 * 0.1 * 0.1 * 0.05, 0.02)
+    check_energy(job, 1e-2, steps=(2,))
+
+
+def resting_block(job):
+    """An imported equilibrium stays at rest: block on a plane under gravity, static then explicit."""
+    job.run()
+    start = next(line for line in job.log().splitlines() if "starts with" in line)
+    check("imbalance when the explicit step starts", float(start.split("= ")[1].split()[0]), 0.0, 1e-8)
+    load = job.history("node_9002", "RF2", 2)[1]
+    check("drift of the load on the plane", np.abs(load - load[0]).max() / abs(load[0]), 0.0, 1e-6)
+    check("load on the plane", abs(load[-1]), 1000.0 * 0.1 * 0.1 * 0.05 * 9.81, 1e-6)
+
+
+def driven_block(job):
+    """Prescribed motion in rotated directions: the driven end goes where it is told, and its reactions do the work."""
+    job.run()
+    moved = job.frame("U", -1)
+    coordinates, _ = job.mesh("C3D8R")
+    ends = coordinates[:, 0] > 0.0999
+    angle = math.radians(30.0)
+    along = np.array([math.cos(angle), math.sin(angle), 0.0])
+    check("displacement along the prescribed direction", (moved[ends] @ along).max(), 0.01, 1e-9)
+    check("the same at every driven node", (moved[ends] @ along).min(), 0.01, 1e-9)
+    check_energy(job, 1e-3)
+
+
+CASES = {case.__name__: case for case in (truss_stability, rod_impact, free_flight, spun_block, pendulum, dzhanibekov, skid,
+                                          sliding_block, resting_block, driven_block)}
+
+if __name__ == "__main__":
+    case, balocco, ranks, folder = sys.argv[1:]
+    CASES[case](Job(case, balocco, ranks, folder))
+    sys.exit(f"{len(failures)} checks failed" if failures else 0)
