@@ -46,7 +46,6 @@ void StaticLinearSolver::set_defaults() {
   petsc(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));
   petsc(KSPSetTolerances(solver_, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT,
                          2000));                    // iterative solvers; command line overrides
-  set_default_option("-mat_mumps_icntl_7", "4");    // PORD: Debian builds MUMPS without METIS and Scotch
   set_default_option("-mat_mumps_icntl_14", "60");  // room for pivoting, per cent
   set_default_option("-mat_mumps_icntl_13", "1");   // the root front on one rank: a singular matrix is told as such
 }

@@ -112,7 +112,7 @@ class StaticSystem {
   std::int64_t closed_points_ = 0, changed_points_ = 0;
   std::int64_t inverted_element_ = -1;
   std::string trouble_;
-  std::vector<NodeMotion> motions_;            // scratch
+  std::vector<NodeMotion> motions_;                                        // scratch
   std::vector<double> old_history_, new_history_, force_, block_, nodal_;  // scratch
 };
 
