@@ -1,5 +1,5 @@
 // C3D8: the fully integrated brick.
-#include "elements/full_solid.hpp"
+#include "elements/full_solid_explicit.hpp"
 #include "elements/solid_faces.hpp"
 
 namespace balocco {

@@ -15,4 +15,10 @@ struct LaneReference {
   double operator[](int k) const { return data[pack_size * k]; }
 };
 
+/// Asks for the record of the next pack (`components` packs long) while this one is computed; past the last it is a
+/// hint without effect.
+inline void prefetch_record(const double* record, int components) {
+  for (int k = 0; k < components; ++k) __builtin_prefetch(record + pack_size * k);
+}
+
 }  // namespace balocco

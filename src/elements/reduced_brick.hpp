@@ -10,6 +10,8 @@
 
 namespace balocco {
 
+inline constexpr int nodes_per_brick = 8;
+
 class ReducedBrick final : public ElementGroup {
  public:
   explicit ReducedBrick(const GroupInput& input);

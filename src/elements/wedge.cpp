@@ -1,5 +1,5 @@
 // C3D6: the linear wedge.
-#include "elements/full_solid.hpp"
+#include "elements/full_solid_explicit.hpp"
 #include "elements/solid_faces.hpp"
 
 namespace balocco {
