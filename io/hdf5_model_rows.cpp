@@ -40,7 +40,7 @@ std::vector<TableRows> make_table_rows(const Model& model, const Communicator& c
 ContactRows make_contact_rows(const Model& model, const Communicator& communicator, const Domain& domain, std::int32_t pair,
                               Copies copies) {
   const auto all = surface_rows(model, model.surfaces[model.contact_pairs[pair].slave]);
-  const auto local = slave_nodes(model, pair, domain);
+  const auto local = local_slave_nodes(model, pair, domain);
   std::vector<std::int32_t> points;
   std::vector<std::int64_t> rows;
   for (std::int32_t point = 0; point < static_cast<std::int32_t>(local.size()); ++point) {

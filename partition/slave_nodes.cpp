@@ -18,12 +18,11 @@ std::vector<std::int32_t> surface_rows(const Model& model, const Surface& surfac
   return rows;
 }
 
-std::vector<std::int32_t> slave_nodes(const Model& model, std::int32_t pair, const Domain& domain) {
+std::vector<std::int32_t> local_slave_nodes(const Model& model, std::int32_t pair, const Domain& domain) {
   std::vector<std::int32_t> nodes;
   for (std::int32_t row : surface_rows(model, model.surfaces[model.contact_pairs[pair].slave])) {
     if (domain.local_node[row] >= 0) nodes.push_back(domain.local_node[row]);
   }
-  std::sort(nodes.begin(), nodes.end());
   return nodes;
 }
 
