@@ -91,12 +91,12 @@ void Analysis::sum_masses() {
     }
   };
   for_each_share([&](std::int32_t, double mass, double alpha) { largest = std::max({largest, mass, alpha * mass}); });
-  const double constant = rounding_constant(64.0 * communicator.maximum(largest));
+  mass_constant_ = rounding_constant(64.0 * communicator.maximum(largest));
 
   std::vector<double> sums(4 * (domain.size() + 1), 0.0);
   for_each_share([&](std::int32_t node, double mass, double alpha) {
-    sums[4 * node] += rounded(mass, constant);
-    sums[4 * node + 1] += rounded(alpha * mass, constant);
+    sums[4 * node] += rounded(mass, mass_constant_);
+    sums[4 * node + 1] += rounded(alpha * mass, mass_constant_);
   });
   domain.halo->begin_sum(sums.data());
   domain.halo->finish_sum(sums.data());
@@ -118,15 +118,20 @@ const std::vector<double>& Analysis::partial_mass(std::int32_t element_set) cons
     const auto& elements = model.element_sets[element_set].elements;
     return std::binary_search(elements.begin(), elements.end(), element);
   };
-  std::vector<double> share;
+  // Whole masses on the owners: a weight is rounded once, so that it does not depend on how ranks share a node.
+  std::vector<double> share, sums(4 * (domain.size() + 1), 0.0);
   for (const auto& group : element_groups) {
     share.resize(group->nodes_per_element());
     for (std::int32_t e = 0; e < group->size(); ++e) {
       if (!contains({group->table(), group->row(e)})) continue;
       group->lumped_mass(e, share);
-      for (std::size_t i = 0; i < share.size(); ++i) mass[group->nodes(e)[i]] += share[i];
+      for (std::size_t i = 0; i < share.size(); ++i) sums[4 * group->nodes(e)[i]] += rounded(share[i], mass_constant_);
     }
   }
+  domain.halo->begin_sum(sums.data());
+  domain.halo->finish_sum(sums.data());
+  for (std::int32_t node = 0; node < domain.size(); ++node)
+    if (domain.owned[node]) mass[node] = sums[4 * node];
   for_each_point_mass(model, domain, [&](std::int32_t node, double point_mass, ElementRef element) {
     if (domain.owned[node] && contains(element)) mass[node] += point_mass;
   });

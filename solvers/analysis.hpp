@@ -40,7 +40,8 @@ class Analysis : public ResultSource {
   std::int32_t carrier(std::int32_t local_node) const { return carrier_[local_node]; }
   /// Body whose reference node is this local node, or -1.
   std::int32_t reference_of(std::int32_t local_node) const { return reference_of_[local_node]; }
-  /// This rank's part of the nodal masses of an element set (-1: all elements), per local node: what gravity acts on.
+  /// Nodal masses of an element set (-1: all elements) on the nodes that this rank owns, zero elsewhere: what gravity acts on.
+  /// Collective when a set is first asked for.
   const std::vector<double>& partial_mass(std::int32_t element_set) const;
   /// Rebuilds carrier() from the state: after attachments, and after a checkpoint was read.
   void index_rigid_nodes();
@@ -68,6 +69,7 @@ class Analysis : public ResultSource {
   double kinetic_energy_of_rotary_inertia() const;
 
   std::vector<std::int32_t> carrier_, reference_of_;
+  double mass_constant_ = 0.0;  // rounds shares of nodal masses
   mutable std::map<std::int32_t, std::vector<double>> partial_mass_;
 };
 
