@@ -80,9 +80,14 @@ def truss_stability(job):
     angle = math.acos(1.0 - 2.0 * 0.999**2)
     stretch = job.history("node_2", "U1")[1] - job.history("node_1", "U1")[1]
     check("largest stretch below the limit", np.abs(stretch).max(), 1e-6 * 0.999 * critical / math.sin(angle), 0.02)
-    # Beyond the limit the amplitude grows by exp(acosh(2 * 1.001^2 - 1)) an increment until the run is stopped.
-    output = job.run(template.replace("INCREMENT", f"{1.001 * critical:.12e}"), expected_status=3)
-    check("blow-up is told with node and element", float("blown up at node" in output and "of element 1" in output), 1.0, 0.0)
+    # Beyond the limit the amplitude grows by the exponent acosh(2 * 1.001^2 - 1) an increment.
+    job.run(template.replace("INCREMENT", f"{1.001 * critical:.12e}"))
+    stretch = np.abs(job.history("node_2", "U1")[1] - job.history("node_1", "U1")[1])
+    check("growth beyond the limit", math.log(stretch[100] / stretch[50]) / 50.0, math.acosh(2.0 * 1.001**2 - 1.0), 1e-3)
+    # Far beyond it the run is stopped.
+    output = job.run(template.replace("INCREMENT", f"{2.0 * critical:.12e}"), expected_status=3)
+    told = "of element 1" in output or "element 1 has become" in output
+    check("the failure names the element", float(told), 1.0, 0.0)
 
 
 def rod_impact(job):
@@ -180,9 +185,9 @@ def dzhanibekov(job):
 
 
 def rolling_deck(inertia):
-    """A rigid ring of radius 0.1 m and 720 strips, mass 1, slides at 10 m/s on a plane with mu = 0.4."""
+    """A rigid ring of radius 0.1 m and 360 strips, mass 1, slides at 10 m/s on a plane with mu = 0.4."""
     lines = ["*HEADING", "Skidding ring", "*NODE"]
-    count, radius = 720, 0.1
+    count, radius = 360, 0.1
     for side, z in ((0, -0.01), (1, 0.01)):
         for i in range(count):
             angle = 2.0 * math.pi * i / count
@@ -227,7 +232,7 @@ TREAD, GROUND
 HUB, 1, 10.
 *STEP
 *DYNAMIC, EXPLICIT, DIRECT USER CONTROL
-1e-4, 1.6
+5e-5, 1.6
 *DLOAD
 , GRAV, 9.81, 0., -1., 0.
 *OUTPUT, HISTORY, TIME INTERVAL=0.002
