@@ -157,9 +157,10 @@ class StepAuthor {
     return step;
   }
 
+  /// The wheel is free to spin from here on, held by friction alone, so that rolling starts from equilibrium.
   Step loading() const {
     auto step = static_step("LOAD", 0.25, 0.5);
-    hold(step, rig_.hub, true);
+    hold(step, rig_.hub, true, 4);
     hold(step, rig_.road, true, 2);
     press(step, spec_.statics.pressure, spec_.statics.pressure);
     lift(step);
