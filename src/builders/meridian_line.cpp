@@ -47,6 +47,7 @@ MeridianLine::MeridianLine(const TyreSpec& spec) {
     rubber_.push_back({lengths_.back()[1], points[i].base, points[i].cap});
     for (int r = 0; r < region_count; ++r)
       if (last_of_region[r] == i) region_ends_[r] = lengths_.back()[1];
+    if (last_of_region[static_cast<int>(Region::sidewall)] == i) rubber_.back()[2] = spec.rim_strip_top;
   }
 }
 

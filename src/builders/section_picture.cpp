@@ -9,7 +9,7 @@ namespace balocco {
 namespace {
 
 constexpr double scale = 4.0, margin = 60.0;
-constexpr std::array<const char*, solid_part_count> part_colours{"#9c9c9c", "#6f6f6f", "#c8b89a", "#a8753f"};
+constexpr std::array<const char*, solid_part_count> part_colours{"#9c9c9c", "#6f6f6f", "#c8b89a", "#a8753f", "#7d5a3c"};
 constexpr std::array<const char*, region_count> region_colours{"#c0392b", "#d98200", "#1f6fb2", "#2c8f4e"};
 
 /// Millimetres of the section to units of the picture: axial to the right, radius upwards.

@@ -44,26 +44,19 @@ Lamina make_lamina(const PlySpec& ply, const TyreSpec& spec) {
   return lamina;
 }
 
-LaminateStiffness laminate_stiffness(const std::vector<int>& plies, const TyreSpec& spec) {
+PlySpec ply_at(PlySpec ply, double radius_ratio) {
+  if (ply.gathers) ply.spacing *= radius_ratio;
+  return ply;
+}
+
+LaminateStiffness laminate_stiffness(const std::vector<int>& plies, const TyreSpec& spec, double radius_ratio) {
   LaminateStiffness sum;
   for (const int row : plies) {
-    const auto& ply = spec.plies[row];
+    const auto ply = ply_at(spec.plies[row], radius_ratio);
     const auto lamina = make_lamina(ply, spec);
     sum.circumferential += ply.thickness * turned_stiffness(lamina, ply.angle);
     sum.meridional += ply.thickness * turned_stiffness(lamina, ply.angle - std::acos(0.0));
   }
-  return sum;
-}
-
-double laminate_thickness(const std::vector<int>& plies, const TyreSpec& spec) {
-  double sum = 0.0;
-  for (const int row : plies) sum += spec.plies[row].thickness;
-  return sum;
-}
-
-double laminate_areal_density(const std::vector<int>& plies, const TyreSpec& spec) {
-  double sum = 0.0;
-  for (const int row : plies) sum += spec.plies[row].thickness * make_lamina(spec.plies[row], spec).density;
   return sum;
 }
 

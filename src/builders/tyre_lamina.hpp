@@ -22,14 +22,14 @@ struct Lamina {
 /// strain.
 Lamina make_lamina(const PlySpec& ply, const TyreSpec& spec);
 
-/// Membrane stiffness of stacked plies, N/mm: along the circumference and along the meridian, transverse strain held.
+/// The ply at a radius given as a share of the crown's: the spacing of gathering cords shrinks with it.
+PlySpec ply_at(PlySpec ply, double radius_ratio);
+
+/// Membrane stiffness of stacked plies, N/mm: along the circumference and along the meridian, transverse strain held,
+/// at a radius as in ply_at.
 struct LaminateStiffness {
   double circumferential = 0.0, meridional = 0.0;
 };
-LaminateStiffness laminate_stiffness(const std::vector<int>& plies, const TyreSpec& spec);
-
-/// Thickness of stacked plies (mm) and their mass per area (g/mm2).
-double laminate_thickness(const std::vector<int>& plies, const TyreSpec& spec);
-double laminate_areal_density(const std::vector<int>& plies, const TyreSpec& spec);
+LaminateStiffness laminate_stiffness(const std::vector<int>& plies, const TyreSpec& spec, double radius_ratio);
 
 }  // namespace balocco

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include "builders/tyre_lamina.hpp"
@@ -49,30 +50,46 @@ std::int32_t add_section(Model& model, Section section) {
 }
 
 /// Composite membranes of the four regions. In model 1 the sidewall's rubber is the outermost ply.
-std::array<std::int32_t, region_count> add_membrane_sections(const TyreSpec& spec, const TyreSection& section,
-                                                             Model& model) {
-  std::vector<std::int32_t> ply_materials;
-  for (const auto& ply : spec.plies)
-    ply_materials.push_back(add_lamina(model, "PLY_" + upper(ply.name), make_lamina(ply, spec)));
+struct MembraneSections {
+  std::array<std::int32_t, region_count> line{};
+  std::int32_t turn_up = -1;
+};
+
+MembraneSections add_membrane_sections(const TyreSpec& spec, const TyreSection& section, Model& model) {
   Orientation wheel{.system = Orientation::System::cylindrical, .name = "WHEEL_AXIS"};
   wheel.axes = {{{0, 0, 1}, {1, 0, 0}, {0, 1, 0}}};
   model.orientations.push_back(wheel);
-  std::array<std::int32_t, region_count> rows{};
-  for (int r = 0; r < region_count; ++r) {
-    Section membrane{
-        .kind = Section::Kind::membrane, .element_set = "CARCASS_" + upper(region_names[r]), .orientation = 0};
+  std::map<std::string, std::int32_t> ply_materials;
+  const auto material_of = [&](int ply, int region) {
+    const auto& described = spec.plies[ply];
+    const auto name = "PLY_" + upper(described.name) + (described.gathers ? "_" + upper(region_names[region]) : "");
+    const auto [entry, is_new] = ply_materials.try_emplace(name, -1);
+    const double ratio = mean_radius(section, static_cast<Region>(region)) / spec.crown_radius;
+    if (is_new) entry->second = add_lamina(model, name, make_lamina(ply_at(described, ratio), spec));
+    return entry->second;
+  };
+  const auto stack = [&](const std::string& element_set, const std::vector<int>& plies, int region) {
+    Section membrane{.kind = Section::Kind::membrane, .element_set = element_set, .orientation = 0};
+    for (const int ply : plies)
+      membrane.plies.push_back({spec.plies[ply].thickness, material_of(ply, region), spec.plies[ply].angle});
+    return membrane;
+  };
+  const auto add = [&](Section membrane) {
     membrane.thickness = 0.0;
-    const auto& region = spec.regions[r];
+    for (const auto& ply : membrane.plies) membrane.thickness += ply.thickness;
+    return add_section(model, std::move(membrane));
+  };
+  MembraneSections rows;
+  for (int r = 0; r < region_count; ++r) {
+    auto membrane = stack("CARCASS_" + upper(region_names[r]), spec.regions[r].plies, r);
     if (static_cast<Region>(r) == Region::sidewall && spec.model == 1) {
       PlySpec rubber{.name = "sidewall_rubber", .rubber = spec.part_rubbers[static_cast<int>(SolidPart::sidewall)]};
       const auto material = add_lamina(model, "PLY_SIDEWALL_RUBBER", make_lamina(rubber, spec));
-      membrane.plies.push_back({section.sidewall_rubber, material, 0.0});
+      membrane.plies.insert(membrane.plies.begin(), {section.sidewall_rubber, material, 0.0});
     }
-    for (const int ply : region.plies)
-      membrane.plies.push_back({spec.plies[ply].thickness, ply_materials[ply], spec.plies[ply].angle});
-    for (const auto& ply : membrane.plies) membrane.thickness += ply.thickness;
-    rows[r] = add_section(model, membrane);
+    rows.line[r] = add(std::move(membrane));
   }
+  rows.turn_up = add(stack("TURN_UP", spec.turn_up, static_cast<int>(Region::bead)));
   return rows;
 }
 
@@ -97,6 +114,24 @@ void add_tyre_nodes(const TyreSection& section, const TyreMesh& mesh, Model& mod
   add_node_set(model, "TYRE", all);
 }
 
+/// Corners of a membrane between two section nodes: across the tyre first, then forwards, so that the normal points
+/// outwards.
+std::vector<std::int32_t> quadrilateral(const TyreMesh& mesh, int sector, int right, int left) {
+  return {mesh.node(sector, right), mesh.node(sector, left), mesh.node(sector + 1, left), mesh.node(sector + 1, right)};
+}
+
+/// The folded-back plies lie on the outside of the apex.
+void add_turn_up(const TyreSection& section, std::int32_t section_row, Model& model, const TyreMesh& mesh) {
+  std::vector<ElementRef> elements;
+  for (int sector = 0; sector < mesh.sectors(); ++sector)
+    for (const auto& quad : section.quads)
+      if (quad.part == SolidPart::apex)
+        elements.push_back(
+            {mesh.membranes, add_element(model, mesh.membranes,
+                                         quadrilateral(mesh, sector, quad.nodes[3], quad.nodes[2]), section_row)});
+  add_element_set(model, "TURN_UP", std::move(elements));
+}
+
 void add_membranes(const TyreSpec& spec, const TyreSection& section, Model& model, TyreMesh& mesh) {
   const auto sections = add_membrane_sections(spec, section, model);
   mesh.membranes = add_element_table(model, spec.membrane_type);
@@ -107,10 +142,8 @@ void add_membranes(const TyreSpec& spec, const TyreSection& section, Model& mode
   for (int sector = 0; sector < mesh.sectors(); ++sector) {
     for (std::size_t j = 0; j < section.line_regions.size(); ++j) {
       const int region = static_cast<int>(section.line_regions[j]);
-      // Across the tyre first, then forwards: the normal points outwards.
-      const std::vector<std::int32_t> nodes{mesh.node(sector, line[j]), mesh.node(sector, line[j + 1]),
-                                            mesh.node(sector + 1, line[j + 1]), mesh.node(sector + 1, line[j])};
-      const ElementRef element{mesh.membranes, add_element(model, mesh.membranes, nodes, sections[region])};
+      const auto nodes = quadrilateral(mesh, sector, line[j], line[j + 1]);
+      const ElementRef element{mesh.membranes, add_element(model, mesh.membranes, nodes, sections.line[region])};
       sets[region].push_back(element);
       all.push_back(element);
       liner.faces.push_back({element, inward_side});
@@ -118,7 +151,8 @@ void add_membranes(const TyreSpec& spec, const TyreSection& section, Model& mode
   }
   add_element_set(model, "BELT", sets[static_cast<int>(Region::belt)]);
   for (int r = 0; r < region_count; ++r)
-    add_element_set(model, model.sections[sections[r]].element_set, std::move(sets[r]));
+    add_element_set(model, model.sections[sections.line[r]].element_set, std::move(sets[r]));
+  add_turn_up(section, sections.turn_up, model, mesh);
   add_element_set(model, "CARCASS", std::move(all));
   mesh.liner_surface = static_cast<std::int32_t>(model.surfaces.size());
   model.surfaces.push_back(std::move(liner));
@@ -128,7 +162,7 @@ void add_solids(const TyreSpec& spec, const TyreSection& section, Model& model, 
   const auto sections = add_solid_sections(spec, model);
   mesh.solids = add_element_table(model, spec.solid_type);
   std::array<std::vector<ElementRef>, solid_part_count> sets;
-  std::vector<ElementRef> tread;
+  std::vector<ElementRef> tread, bead;
   Surface contact{.kind = Surface::Kind::element_faces, .name = "TREAD"};
   for (int sector = 0; sector < mesh.sectors(); ++sector) {
     for (const auto& quad : section.quads) {
@@ -141,29 +175,35 @@ void add_solids(const TyreSpec& spec, const TyreSection& section, Model& model, 
       sets[part].push_back(element);
       if (quad.part == SolidPart::tread_cap && quad.outermost) contact.faces.push_back({element, outer_face});
       if (quad.part == SolidPart::tread_cap || quad.part == SolidPart::tread_base) tread.push_back(element);
+      if (quad.part == SolidPart::apex || quad.part == SolidPart::rim_strip) bead.push_back(element);
     }
   }
   for (int part = 0; part < solid_part_count; ++part)
     if (!sets[part].empty()) add_element_set(model, solid_part_names[part], std::move(sets[part]));
   add_element_set(model, "TREAD_SOLID", std::move(tread));
+  add_element_set(model, "BEAD_SOLID", std::move(bead));
   mesh.tread_surface = static_cast<std::int32_t>(model.surfaces.size());
   model.surfaces.push_back(std::move(contact));
 }
 
+/// The bundle of wires lies between the plies: half of its area on each side of the apex.
 void add_bead_wires(const TyreSpec& spec, const TyreSection& section, Model& model, TyreMesh& mesh) {
   const auto steel = add_material(model, {.name = "BEAD_STEEL",
                                           .density = spec.bead.density,
                                           .law = "elastic",
                                           .parameters = {spec.bead.modulus, spec.bead.poisson}});
   const auto row = add_section(
-      model, {.kind = Section::Kind::truss, .element_set = "BEAD_WIRE", .material = steel, .area = spec.bead.area});
+      model,
+      {.kind = Section::Kind::truss, .element_set = "BEAD_WIRE", .material = steel, .area = 0.5 * spec.bead.area});
   mesh.wires = add_element_table(model, "T3D2");
   std::vector<ElementRef> wires;
   for (const int position : {spec.bead.row, section.line_size() - 1 - spec.bead.row}) {
-    const int node = section.layers[0][position];
-    for (int sector = 0; sector < mesh.sectors(); ++sector)
-      wires.push_back(
-          {mesh.wires, add_element(model, mesh.wires, {mesh.node(sector, node), mesh.node(sector + 1, node)}, row)});
+    for (const int layer : {0, 1}) {
+      const int node = section.layers[layer][position];
+      for (int sector = 0; sector < mesh.sectors(); ++sector)
+        wires.push_back(
+            {mesh.wires, add_element(model, mesh.wires, {mesh.node(sector, node), mesh.node(sector + 1, node)}, row)});
+    }
   }
   add_element_set(model, "BEAD_WIRE", std::move(wires));
 }

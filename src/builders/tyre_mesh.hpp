@@ -29,8 +29,8 @@ struct TyreMesh {
 std::vector<double> sector_angles(const TyreSpec& spec);
 
 /// Adds the tyre to an empty model. Element sets CARCASS_*, CARCASS, BELT, TREAD_BASE, TREAD_CAP, TREAD_SOLID,
-/// SIDEWALL_SOLID, BEAD_SOLID, BEAD_WIRE; node sets TYRE, BEAD_LEFT (y > 0), BEAD_RIGHT, CROWN_TOP, SIDE_LEFT,
-/// SIDE_RIGHT; surfaces TREAD and LINER.
+/// SIDEWALL_SOLID, APEX, RIM_STRIP, BEAD_SOLID, TURN_UP, BEAD_WIRE; node sets TYRE, BEAD_LEFT (y > 0), BEAD_RIGHT,
+/// CROWN_TOP, SIDE_LEFT, SIDE_RIGHT; surfaces TREAD and LINER.
 TyreMesh add_tyre(const TyreSpec& spec, const TyreSection& section, Model& model);
 
 /// Table of an element type that the model does not have yet. @return its row.

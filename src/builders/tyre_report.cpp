@@ -38,10 +38,10 @@ double quadrilateral_area(const std::vector<Point>& corners) {
   return 0.5 * length(cross(first, second));
 }
 
-double areal_density(const TyreSpec& spec, const TyreSection& section, Region region) {
-  double density = laminate_areal_density(spec.region(region).plies, spec);
-  if (region == Region::sidewall && spec.model == 1)
-    density += section.sidewall_rubber * spec.rubbers[spec.part_rubbers[static_cast<int>(SolidPart::sidewall)]].density;
+/// Mass per area of a composite membrane.
+double areal_density(const Model& model, const Section& section) {
+  double density = 0.0;
+  for (const auto& ply : section.plies) density += ply.thickness * model.materials[ply.material].density;
   return density;
 }
 
@@ -66,9 +66,11 @@ std::vector<StableLine> stable_increments(const TyreSpec& spec, const TyreSectio
                                           const Model& model) {
   std::vector<StableLine> lines;
   const auto& membranes = model.elements[mesh.membranes];
-  for (int r = 0; r < region_count; ++r) {
-    const auto stiffness = laminate_stiffness(spec.regions[r].plies, spec);
-    const double density = areal_density(spec, section, static_cast<Region>(r));
+  for (int r = 0; r <= region_count; ++r) {  // the sections of the line, then that of the turn-up
+    const auto region = static_cast<Region>(std::min(r, region_count - 1));
+    const auto stiffness = laminate_stiffness(r < region_count ? spec.regions[r].plies : spec.turn_up, spec,
+                                              mean_radius(section, region) / spec.crown_radius);
+    const double density = areal_density(model, model.sections[r]);
     const double across = shortest_edge(model, membranes, r, 0, 1),
                  around = std::min(shortest_edge(model, membranes, r, 0, 3), shortest_edge(model, membranes, r, 1, 2));
     lines.push_back({model.sections[r].element_set, std::min(across * std::sqrt(density / stiffness.meridional),
@@ -115,8 +117,7 @@ double hexahedron_volume(const std::vector<Point>& corners) {
   return volume;
 }
 
-std::vector<PartMass> tyre_masses(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh,
-                                  const Model& model) {
+std::vector<PartMass> tyre_masses(const TyreSpec& spec, const TyreMesh& mesh, const Model& model) {
   std::vector<PartMass> masses;
   const auto add = [&](const std::string& part) -> double& {
     for (auto& entry : masses)
@@ -125,9 +126,8 @@ std::vector<PartMass> tyre_masses(const TyreSpec& spec, const TyreSection& secti
   };
   const auto& membranes = model.elements[mesh.membranes];
   for (std::int32_t row = 0; row < membranes.size(); ++row) {
-    const auto region = section.line_regions[row % section.line_regions.size()];
-    add(model.sections[membranes.section[row]].element_set) +=
-        areal_density(spec, section, region) * quadrilateral_area(corners_of(model, membranes, row));
+    const auto& part = model.sections[membranes.section[row]];
+    add(part.element_set) += areal_density(model, part) * quadrilateral_area(corners_of(model, membranes, row));
   }
   const auto& solids = model.elements[mesh.solids];
   for (std::int32_t row = 0; row < solids.size(); ++row) {
@@ -137,7 +137,8 @@ std::vector<PartMass> tyre_masses(const TyreSpec& spec, const TyreSection& secti
   const auto& wires = model.elements[mesh.wires];
   for (std::int32_t row = 0; row < wires.size(); ++row) {
     const auto ends = corners_of(model, wires, row);
-    add("BEAD_WIRE") += spec.bead.density * spec.bead.area * length(vector_of(ends[1]) - vector_of(ends[0]));
+    add("BEAD_WIRE") +=
+        spec.bead.density * model.sections[wires.section[row]].area * length(vector_of(ends[1]) - vector_of(ends[0]));
   }
   return masses;
 }
@@ -147,7 +148,7 @@ std::string tyre_report(const TyreSpec& spec, const TyreSection& section, const 
   const auto out = std::back_inserter(text);
   fmt::format_to(out, "{}, model {}\n", spec.title, spec.model);
   double total = 0.0;
-  for (const auto& [part, mass] : tyre_masses(spec, section, mesh, model)) {
+  for (const auto& [part, mass] : tyre_masses(spec, mesh, model)) {
     fmt::format_to(out, "  mass {:<18} {:8.3f} kg\n", part, mass / 1000.0);
     total += mass;
   }

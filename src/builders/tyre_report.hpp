@@ -14,8 +14,7 @@ struct PartMass {
 };
 
 /// Mass of every part of the meshed tyre (rim not included), from the elements' own areas and volumes.
-std::vector<PartMass> tyre_masses(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh,
-                                  const Model& model);
+std::vector<PartMass> tyre_masses(const TyreSpec& spec, const TyreMesh& mesh, const Model& model);
 
 /// Volume of a hexahedron with straight edges (2 x 2 x 2 Gauss points: exact), corners in the order of C3D8.
 double hexahedron_volume(const std::vector<Point>& corners);

@@ -12,14 +12,17 @@
 namespace balocco {
 namespace {
 
+constexpr int rim_layer = 2;  // outside of the rim strip
+
 /// Layers of rubber outside a membrane. Model 1 has none on the sidewall: its rubber is a ply of the membrane there.
 int layers_outside(const TyreSpec& spec, Region region) {
   if (region == Region::belt || region == Region::shoulder) return 1 + spec.cap_layers;
-  return region == Region::sidewall && spec.model == 1 ? 0 : 1;
+  if (region == Region::bead) return 2;
+  return spec.model == 1 ? 0 : 1;
 }
 
 SolidPart part_of(Region region, int layer) {
-  if (region == Region::bead) return SolidPart::bead;
+  if (region == Region::bead) return layer == 0 ? SolidPart::apex : SolidPart::rim_strip;
   if (region == Region::sidewall) return SolidPart::sidewall;
   return layer == 0 ? SolidPart::tread_base : SolidPart::tread_cap;
 }
@@ -79,6 +82,7 @@ double smallest_corner(const TyreSection& section, const SectionQuad& quad) {
 
 void add_nodes(const TyreSpec& spec, const MeridianLine& line, const Division& half, TyreSection& section) {
   const int half_size = static_cast<int>(half.regions.size());
+  const auto first_of_bead = std::find(half.regions.begin(), half.regions.end(), Region::bead) - half.regions.begin();
   const auto layers_of = [&](int j) {
     int layers = 0;
     for (const int membrane : {j - 1, j})
@@ -92,7 +96,9 @@ void add_nodes(const TyreSpec& spec, const MeridianLine& line, const Division& h
       if (layer > layers_of(j)) continue;
       const auto point = line.at(half.arc_lengths[std::abs(j - half_size)]);
       section.layers[layer][j] = static_cast<int>(section.nodes.size());
-      section.nodes.push_back(offset(point, depth_of_layer(point, layer, spec.cap_layers), j >= half_size));
+      section.nodes.push_back(
+          offset(point, depth_of_layer(point, layer, std::abs(j - half_size) < first_of_bead ? spec.cap_layers : 1),
+                 j >= half_size));
     }
   }
 }
@@ -126,12 +132,12 @@ void find_rim_contact(const TyreSpec& spec, TyreSection& section) {
         section.line_regions[std::max(j - 1, 0)] != Region::bead)
       continue;
     const bool toe = j == 0 || j == last;
-    for (int layer = 0; layer <= 1; ++layer) {
+    for (int layer = 0; layer <= rim_layer; ++layer) {
       const int node = section.layers[layer][j];
-      const bool on_flange = layer == 1 && section.nodes[node][0] <= flange;
+      const bool on_flange = layer == rim_layer && section.nodes[node][0] <= flange;
       if (!toe && !on_flange) continue;
       (section.nodes[node][1] > 0.0 ? section.bead_left : section.bead_right).push_back(node);
-      if (toe && layer == 1) heel = std::abs(section.nodes[node][1]);
+      if (toe && layer == rim_layer) heel = std::abs(section.nodes[node][1]);
     }
   }
   std::sort(section.bead_left.begin(), section.bead_left.end());
@@ -188,6 +194,18 @@ double revolved_volume(const TyreSection& section, const SectionQuad& quad) {
     first_moment += (a[1] * b[0] - b[1] * a[0]) * (a[0] + b[0]) / 6.0;
   }
   return 2.0 * std::numbers::pi * (signed_area(section, quad) > 0.0 ? first_moment : -first_moment);
+}
+
+double mean_radius(const TyreSection& section, Region region) {
+  double area = 0.0, moment = 0.0;
+  for (std::size_t j = 0; j < section.line_regions.size(); ++j) {
+    if (section.line_regions[j] != region) continue;
+    const double strip = revolved_area(section, static_cast<int>(j));
+    const auto& line = section.layers[0];
+    area += strip;
+    moment += 0.5 * strip * (section.nodes[line[j]][0] + section.nodes[line[j + 1]][0]);
+  }
+  return moment / area;
 }
 
 double revolved_area(const TyreSection& section, int membrane) {

@@ -37,6 +37,8 @@ TyreSection make_section(const TyreSpec& spec);
 
 /// Volume of a quad revolved about the wheel axis (theorem of Pappus), mm3.
 double revolved_volume(const TyreSection& section, const SectionQuad& quad);
+/// Mean radius of a region's line, mm.
+double mean_radius(const TyreSection& section, Region region);
 /// Area of membrane j revolved about the wheel axis, mm2.
 double revolved_area(const TyreSection& section, int membrane);
 

@@ -16,6 +16,7 @@ constexpr double degree = std::numbers::pi / 180.0;
 /// Row of the item called `name`, -1 with a fault when there is none.
 template <class Item>
 int find_named(const std::vector<Item>& items, const std::string& name, SpecTable& table, std::string_view key) {
+  if (name.empty()) return -1;  // missing or not a text, which has been reported
   std::vector<std::string> names;
   for (std::size_t i = 0; i < items.size(); ++i) {
     if (items[i].name == name) return static_cast<int>(i);
@@ -60,8 +61,9 @@ void read_cords(SpecTable& top, TyreSpec& spec) {
   all.refuse_unknown();
 }
 
-/// The angle of a ply's cords from the circumference, told from whichever line suits the ply.
-double read_angle(SpecTable& table) {
+/// The angle of a ply's cords from the circumference, told from whichever line suits the ply (`meridional`: from the
+/// meridian).
+double read_angle(SpecTable& table, bool& meridional) {
   const auto range = Bounds::between(-90.0, 90.0, "degrees");
   const bool meridian = table.has("angle_to_meridian"), circumference = table.has("angle_to_circumference");
   if (meridian == circumference) {
@@ -70,6 +72,7 @@ double read_angle(SpecTable& table) {
     if (!meridian) return 0.0;
   }
   if (meridian) {
+    meridional = true;
     const double angle = 90.0 * degree - table.number("angle_to_meridian", range) * degree;
     if (circumference) table.number("angle_to_circumference", range);
     return angle;
@@ -88,7 +91,7 @@ void read_plies(SpecTable& top, TyreSpec& spec) {
       ply.cord = find_named(spec.cords, table.text("cord", {}), table, "cord");
       ply.cord_area = table.number("cord_area", Bounds::positive("mm2"));
       ply.spacing = table.number("spacing", Bounds::positive("mm"));
-      ply.angle = read_angle(table);
+      ply.angle = read_angle(table, ply.gathers);
       if (ply.spacing > 0.0 && ply.thickness > 0.0 && ply.cord_area >= 0.9 * ply.spacing * ply.thickness)
         table.fault("cord_area",
                     fmt::format("cords fill {:.0f} % of the ply; keep cord_area below 0.9 * spacing * thickness",
@@ -115,21 +118,31 @@ void read_points(SpecTable& table, bool has_cap, RegionSpec& region) {
     table.fault("points", "empty; give at least the last point of the region");
 }
 
+std::vector<int> read_ply_names(SpecTable& table, std::string_view key, const TyreSpec& spec) {
+  std::vector<int> plies;
+  for (const auto& name : table.texts(key)) plies.push_back(find_named(spec.plies, name, table, key));
+  if (table.has(key) && plies.empty()) table.fault(key, "empty; a membrane needs at least one ply");
+  return plies;
+}
+
 void read_section(SpecTable& top, TyreSpec& spec) {
   auto section = top.table("section");
   spec.crown_radius = section.number("crown_radius", Bounds::positive("mm"));
   spec.cap_layers = section.integer("cap_layers", 1, 8, 1);
   constexpr std::array<const char*, solid_part_count> rubber_keys{"base_rubber", "cap_rubber", "sidewall_rubber",
-                                                                  "bead_rubber"};
+                                                                  "apex_rubber", "rim_strip_rubber"};
   for (int part = 0; part < solid_part_count; ++part)
     spec.part_rubbers[part] = find_named(spec.rubbers, section.text(rubber_keys[part], {}), section, rubber_keys[part]);
   for (int r = 0; r < region_count; ++r) {
     auto table = section.table(region_names[r]);
     auto& region = spec.regions[r];
-    read_points(table, r <= static_cast<int>(Region::shoulder), region);
+    read_points(table, static_cast<Region>(r) != Region::sidewall, region);
     region.elements = table.integer("elements", 1, 200);
-    for (const auto& name : table.texts("plies")) region.plies.push_back(find_named(spec.plies, name, table, "plies"));
-    if (table.has("plies") && region.plies.empty()) table.fault("plies", "empty; a membrane needs at least one ply");
+    region.plies = read_ply_names(table, "plies", spec);
+    if (static_cast<Region>(r) == Region::bead) {
+      spec.turn_up = read_ply_names(table, "turn_up", spec);
+      spec.rim_strip_top = table.number("rim_strip_top", Bounds::positive("mm"));
+    }
     table.refuse_unknown();
   }
   section.refuse_unknown();
@@ -223,7 +236,8 @@ void read_rolling_and_output(SpecTable& top, TyreSpec& spec) {
   rolling.linear_bulk_viscosity = table.number("linear_bulk_viscosity", Bounds::not_negative(""), 0.06);
   rolling.quadratic_bulk_viscosity = table.number("quadratic_bulk_viscosity", Bounds::not_negative(""), 1.2);
   rolling.scale_factor = table.number("scale_factor", Bounds::between(0.01, 1.0, ""), 0.9);
-  if (rolling.enabled && rolling.speed * (rolling.settle_duration + rolling.duration) >= spec.road.ahead)
+  if (rolling.enabled && spec.road.ahead > 0.0 &&
+      rolling.speed * (rolling.settle_duration + rolling.duration) >= spec.road.ahead)
     table.fault("duration",
                 fmt::format("the wheel travels {:.0f} mm and leaves the road; shorten the run or lengthen [road] ahead",
                             rolling.speed * (rolling.settle_duration + rolling.duration)));

@@ -33,22 +33,23 @@ struct PlySpec {
   int rubber = -1, cord = -1;
   double thickness = 0.0;  // mm
   double cord_area = 0.0;  // mm2
-  double spacing = 0.0;    // mm between cords
-  double angle = 0.0;      // from the circumference, about the outward normal
+  double spacing = 0.0;    // mm between cords; of a gathering ply: at the crown
+  bool gathers = false;  // cords run from bead to bead: as many at every radius, so they draw together towards the bead
+  double angle = 0.0;    // from the circumference, about the outward normal
 };
 
 /// A point of the right half of the moulded carcass line and the rubber outside it there.
 struct SectionPoint {
   double radius = 0.0, axial = 0.0;  // mm, axial >= 0
   double base = 0.0;                 // rubber normal to the line, the layer that runs from bead to bead
-  double cap = 0.0;                  // and on top of it, the tread cap
+  double cap = 0.0;                  // and on top of it: the tread cap, or the rim strip
 };
 
 /// The rubber outside the line.
-enum class SolidPart { tread_base, tread_cap, sidewall, bead };
-constexpr int solid_part_count = 4;
+enum class SolidPart { tread_base, tread_cap, sidewall, apex, rim_strip };
+constexpr int solid_part_count = 5;
 constexpr std::array<const char*, solid_part_count> solid_part_names{"TREAD_BASE", "TREAD_CAP", "SIDEWALL_SOLID",
-                                                                     "BEAD_SOLID"};
+                                                                     "APEX", "RIM_STRIP"};
 
 enum class Region { belt, shoulder, sidewall, bead };
 constexpr int region_count = 4;
@@ -122,7 +123,9 @@ struct TyreSpec {
   double crown_radius = 0.0;  // of the line, at axial 0; its rubber is that of the first point
   std::array<RegionSpec, region_count> regions;
   int cap_layers = 1;
-  std::array<int, solid_part_count> part_rubbers{-1, -1, -1, -1};  // rows of `rubbers`
+  std::array<int, solid_part_count> part_rubbers{-1, -1, -1, -1, -1};  // rows of `rubbers`
+  std::vector<int> turn_up;    // plies folded back around the bead: between apex and rim strip
+  double rim_strip_top = 0.0;  // thickness of the rim strip at its upper end, mm
   BeadSpec bead;
   RimSpec rim;
   MeshSpec mesh;

@@ -42,7 +42,8 @@ cap_layers = 2
 base_rubber = "soft"
 cap_rubber = "soft"
 sidewall_rubber = "soft"
-bead_rubber = "soft"
+apex_rubber = "soft"
+rim_strip_rubber = "soft"
 [section.belt]
 points = [[275.6, 20.0, 2.5, 5.5], [274.3, 40.0, 2.5, 5.3], [271.8, 58.0, 2.5, 4.8]]
 elements = 4
@@ -56,9 +57,11 @@ points = [[256.0, 78.4, 4.2], [236.0, 82.2, 3.5], [216.0, 74.6, 4.8], [207.5, 68
 elements = 6
 plies = ["body", "liner"]
 [section.bead]
-points = [[200.0, 63.0, 8.0], [192.5, 59.0, 9.5], [185.5, 57.0, 10.5], [177.4, 56.5, 11.0]]
+points = [[200.0, 62.5, 5.0, 3.5], [192.5, 58.7, 6.5, 3.5], [185.5, 57.0, 7.0, 3.5], [177.4, 56.5, 7.0, 4.0]]
 elements = 4
 plies = ["body", "liner"]
+turn_up = ["body"]
+rim_strip_top = 2.5
 [bead_wire]
 area = 35.0
 modulus = 200000.0

@@ -115,6 +115,13 @@ TEST(TyreLamina, RuleOfMixturesAndHalpinTsai) {
   EXPECT_NEAR(spec.plies[1].angle, std::acos(0.0), 1e-12);
 }
 
+// As many cords at 3 / 4 of the radius: 4 / 3 of the fraction. Belts are cut to width and keep their spacing.
+TEST(TyreLamina, RadialCordsGatherTowardsTheBead) {
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  EXPECT_NEAR(make_lamina(ply_at(spec.plies[1], 0.75), spec).cord_fraction, 0.2 / 0.75, 1e-12);
+  EXPECT_NEAR(make_lamina(ply_at(spec.plies[0], 0.75), spec).cord_fraction, 0.2, 1e-12);
+}
+
 TEST(TyreLamina, RubberAloneIsIsotropic) {
   const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
   const auto lamina = make_lamina(spec.plies[2], spec);
@@ -124,7 +131,7 @@ TEST(TyreLamina, RubberAloneIsIsotropic) {
 
 TEST(TyreLamina, RadialPlyIsStiffAlongTheMeridian) {
   const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
-  const auto stiffness = laminate_stiffness({1}, spec);
+  const auto stiffness = laminate_stiffness({1}, spec, 1.0);
   const auto lamina = make_lamina(spec.plies[1], spec);
   const double scale = 1.0 / (1.0 - lamina.poisson_12 * lamina.poisson_12 * lamina.modulus_2 / lamina.modulus_1);
   EXPECT_NEAR(stiffness.meridional, scale * lamina.modulus_1, 1e-6);
