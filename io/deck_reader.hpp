@@ -1,5 +1,6 @@
-// Reads a deck in Abaqus keyword syntax into a Model. How: deck/tokens (lines to keyword blocks), deck/schedule (rules checked,
-// parts and instances flattened), then one handler per keyword (deck/*.cpp), then the checks of model/check.hpp.
+// Reads a deck in Abaqus keyword syntax into a Model. How: deck/tokens (lines to keyword blocks), deck/schedule (rules
+// checked, parts and instances flattened), then one handler per keyword (deck/*.cpp), then the checks of
+// model/check.hpp.
 #pragma once
 
 #include <functional>
@@ -18,7 +19,8 @@ using FileLoader = std::function<std::optional<std::string>(const std::string& p
 FileLoader file_loader();
 
 struct ReadOptions {
-  std::vector<std::string> ignored_keywords;  // keywords (without asterisk) that warn and are skipped instead of being refused
+  std::vector<std::string>
+      ignored_keywords;  // keywords (without asterisk) that warn and are skipped instead of being refused
 };
 
 struct ReadResult {

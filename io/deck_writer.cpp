@@ -21,7 +21,8 @@ namespace {
 double degrees_of(double radians) {
   const double plain = radians * 180.0 / std::numbers::pi;
   const double infinity = std::numeric_limits<double>::infinity();
-  for (const double candidate : {std::round(plain * 1e9) / 1e9, plain, std::nextafter(plain, infinity), std::nextafter(plain, -infinity)}) {
+  for (const double candidate :
+       {std::round(plain * 1e9) / 1e9, plain, std::nextafter(plain, infinity), std::nextafter(plain, -infinity)}) {
     if (candidate * std::numbers::pi / 180.0 == radians) return candidate;
   }
   return plain;
@@ -36,7 +37,9 @@ Point plus(const Point& a, const Point& b, double factor) {
   return {a[0] + factor * b[0], a[1] + factor * b[1], a[2] + factor * b[2]};
 }
 
-std::string list(const Point& p) { return fmt::format("{}, {}, {}", p[0], p[1], p[2]); }
+std::string list(const Point& p) {
+  return fmt::format("{}, {}, {}", p[0], p[1], p[2]);
+}
 
 }  // namespace
 
@@ -68,7 +71,9 @@ std::string Writer::element_set_of(const std::vector<ElementRef>& elements, cons
   return name_if_made;
 }
 
-void Writer::comment(const char* text) { line("**\n** {}\n**", text); }
+void Writer::comment(const char* text) {
+  line("**\n** {}\n**", text);
+}
 
 void Writer::head() {
   line("*HEADING");
@@ -85,7 +90,8 @@ void Writer::head() {
 void Writer::mesh() {
   comment("Mesh");
   line("*NODE");
-  for (std::int32_t row = 0; row < model_.nodes.size(); ++row) line("{}, {}", node_id(row), list(model_.nodes.coordinates[row]));
+  for (std::int32_t row = 0; row < model_.nodes.size(); ++row)
+    line("{}, {}", node_id(row), list(model_.nodes.coordinates[row]));
   for (const auto& table : model_.elements) {
     line("*ELEMENT, TYPE={}", table.type->name);
     for (std::int32_t row = 0; row < table.size(); ++row) {
@@ -103,7 +109,8 @@ void Writer::sets() {
   std::vector<std::int64_t> ids;
   for (const auto* sets : {&model_.node_sets, &std::as_const(made_node_sets_)}) {
     for (const auto& set : *sets) {
-      const bool sorted = std::adjacent_find(set.nodes.begin(), set.nodes.end(), std::greater_equal<>()) == set.nodes.end();
+      const bool sorted =
+          std::adjacent_find(set.nodes.begin(), set.nodes.end(), std::greater_equal<>()) == set.nodes.end();
       line("*NSET, NSET={}{}", quoted(set.name), sorted ? "" : ", UNSORTED");
       ids.clear();
       for (const auto row : set.nodes) ids.push_back(node_id(row));
@@ -124,9 +131,11 @@ void Writer::amplitude(const Amplitude& amplitude) {
   const char* time = amplitude.total_time ? ", TIME=TOTAL TIME" : "";
   if (amplitude.kind == Amplitude::Kind::periodic) {
     line("*AMPLITUDE, NAME={}, DEFINITION=PERIODIC{}", quoted(amplitude.name), time);
-    line("{}, {}, {}, {}", amplitude.harmonics.size(), amplitude.circular_frequency, amplitude.start, amplitude.initial);
+    line("{}, {}, {}, {}", amplitude.harmonics.size(), amplitude.circular_frequency, amplitude.start,
+         amplitude.initial);
     std::vector<double> coefficients;
-    for (const auto& harmonic : amplitude.harmonics) coefficients.insert(coefficients.end(), harmonic.begin(), harmonic.end());
+    for (const auto& harmonic : amplitude.harmonics)
+      coefficients.insert(coefficients.end(), harmonic.begin(), harmonic.end());
     return values(coefficients);
   }
   line("*AMPLITUDE, NAME={}, DEFINITION={}{}", quoted(amplitude.name),
@@ -159,7 +168,8 @@ void Writer::definitions() {
     const auto& [nodes, directions] = model_.transforms[k];
     const auto& [x, y, z] = directions.axes;
     const bool cylindrical = directions.system == Orientation::System::cylindrical;
-    line("*TRANSFORM, NSET={}, TYPE={}", quoted(node_set_of(nodes, fmt::format("_TRANSFORM-{}", k + 1))), cylindrical ? "C" : "R");
+    line("*TRANSFORM, NSET={}, TYPE={}", quoted(node_set_of(nodes, fmt::format("_TRANSFORM-{}", k + 1))),
+         cylindrical ? "C" : "R");
     line("{}, {}", list(cylindrical ? directions.origin : x), list(cylindrical ? plus(directions.origin, z, 1.0) : y));
   }
 }
@@ -234,12 +244,15 @@ void Writer::section(std::size_t row) {
   for (std::size_t t = 0; t < model_.elements.size(); ++t) {
     const auto& owner = model_.elements[t].section;
     for (std::size_t e = 0; e < owner.size(); ++e) {
-      if (owner[e] == static_cast<std::int32_t>(row)) elements.push_back({static_cast<std::int32_t>(t), static_cast<std::int32_t>(e)});
+      if (owner[e] == static_cast<std::int32_t>(row))
+        elements.push_back({static_cast<std::int32_t>(t), static_cast<std::int32_t>(e)});
     }
   }
-  const auto named = std::find_if(model_.element_sets.begin(), model_.element_sets.end(),
-                                  [&](const ElementSet& set) { return set.name == section.element_set && set.elements == elements; });
-  const std::string set = named != model_.element_sets.end() ? named->name : element_set_of(elements, fmt::format("_SECTION-{}", row + 1));
+  const auto named = std::find_if(model_.element_sets.begin(), model_.element_sets.end(), [&](const ElementSet& set) {
+    return set.name == section.element_set && set.elements == elements;
+  });
+  const std::string set =
+      named != model_.element_sets.end() ? named->name : element_set_of(elements, fmt::format("_SECTION-{}", row + 1));
   switch (section.kind) {
     case Section::Kind::solid:
       return section_line("SOLID SECTION", section, row, set);
@@ -270,11 +283,15 @@ void Writer::rigid_bodies() {
   comment("Rigid bodies");
   for (const auto& body : model_.rigid_bodies) {
     std::string parameters = fmt::format(", REF NODE={}", node_id(body.reference_node));
-    if (!body.elements.empty()) parameters += ", ELSET=" + quoted(element_set_of(body.elements, "_" + body.name + "-ELEMENTS"));
-    if (!body.tie_nodes.empty()) parameters += ", TIE NSET=" + quoted(node_set_of(body.tie_nodes, "_" + body.name + "-TIE"));
-    if (!body.pin_nodes.empty()) parameters += ", PIN NSET=" + quoted(node_set_of(body.pin_nodes, "_" + body.name + "-PIN"));
+    if (!body.elements.empty())
+      parameters += ", ELSET=" + quoted(element_set_of(body.elements, "_" + body.name + "-ELEMENTS"));
+    if (!body.tie_nodes.empty())
+      parameters += ", TIE NSET=" + quoted(node_set_of(body.tie_nodes, "_" + body.name + "-TIE"));
+    if (!body.pin_nodes.empty())
+      parameters += ", PIN NSET=" + quoted(node_set_of(body.pin_nodes, "_" + body.name + "-PIN"));
     if (body.at_center_of_mass) parameters += ", POSITION=CENTER OF MASS";
-    if (body.analytical_surface >= 0) parameters += ", ANALYTICAL SURFACE=" + quoted(model_.surfaces[body.analytical_surface].name);
+    if (body.analytical_surface >= 0)
+      parameters += ", ANALYTICAL SURFACE=" + quoted(model_.surfaces[body.analytical_surface].name);
     line("*RIGID BODY{}", parameters);
   }
 }
@@ -284,7 +301,8 @@ void Writer::contact() {
   for (const auto& interaction : model_.interactions) {
     line("*SURFACE INTERACTION, NAME={}", quoted(interaction.name));
     if (interaction.friction != 0.0 || interaction.elastic_slip) {
-      line("*FRICTION{}\n{}", interaction.elastic_slip ? fmt::format(", ELASTIC SLIP={}", *interaction.elastic_slip) : "",
+      line("*FRICTION{}\n{}",
+           interaction.elastic_slip ? fmt::format(", ELASTIC SLIP={}", *interaction.elastic_slip) : "",
            interaction.friction);
     }
     if (interaction.penalty_scale != 1.0) line("*SURFACE BEHAVIOR, PENALTY\n{}", interaction.penalty_scale);
@@ -301,7 +319,8 @@ void Writer::initial_velocities() {
     const auto& velocity = model_.initial_velocities[k];
     const std::string set = quoted(node_set_of(velocity.nodes, fmt::format("_VELOCITY-{}", k + 1)));
     if (velocity.kind == InitialVelocity::Kind::rotation) {
-      line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\n{}, {}, {}", set, velocity.angular_speed, list(velocity.velocity));
+      line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\n{}, {}, {}", set, velocity.angular_speed,
+           list(velocity.velocity));
       line("{}, {}", list(velocity.axis_point), list(plus(velocity.axis_point, velocity.axis_direction, 1.0)));
       continue;
     }
@@ -332,6 +351,8 @@ std::string Writer::write() {
 
 }  // namespace deck
 
-std::string write_deck(const Model& model) { return deck::Writer(model).write(); }
+std::string write_deck(const Model& model) {
+  return deck::Writer(model).write();
+}
 
 }  // namespace balocco

@@ -60,25 +60,29 @@ void Builder::poison(const Block& block) {
   }
 }
 
-std::string Builder::squeezed(std::string_view name) { return squeeze(after_instance(name)); }
+std::string Builder::squeezed(std::string_view name) {
+  return squeeze(after_instance(name));
+}
 
 std::optional<std::int32_t> Builder::find(const Names& names, std::string_view name) const {
   if (!scope->prefix.empty()) {
-    if (const auto found = names.rows.find(scope->prefix + std::string(name)); found != names.rows.end()) return found->second;
+    if (const auto found = names.rows.find(scope->prefix + std::string(name)); found != names.rows.end())
+      return found->second;
   }
   const auto found = names.rows.find(name);
   if (found != names.rows.end()) return found->second;
   return std::nullopt;
 }
 
-std::optional<std::int32_t> Builder::require(const Names& names, std::string_view name, const Block& block, Location location) {
+std::optional<std::int32_t> Builder::require(const Names& names, std::string_view name, const Block& block,
+                                             Location location) {
   if (const auto found = find(names, name)) return found;
   if (!is_poisoned(name) && !(mesh_incomplete && (&names == &node_sets || &names == &element_sets))) {
     std::vector<std::string> known;
     for (const auto& [key, row] : names.rows) known.push_back(key);
     const std::string guess = nearest(name, known);
-    tell_undefined(fmt::format("{} {}", names.kind, name), guess.empty() ? "define it" : "did you mean " + guess + "?", block,
-                   location);
+    tell_undefined(fmt::format("{} {}", names.kind, name), guess.empty() ? "define it" : "did you mean " + guess + "?",
+                   block, location);
   }
   poison(block);
   return std::nullopt;
@@ -116,7 +120,8 @@ std::optional<std::int32_t> Builder::require_node(std::int64_t id, const Block& 
   const auto row = node(id);
   if (!row) {
     if (!mesh_incomplete) {
-      tell_undefined(fmt::format("node {}{}", scope->prefix, id), "define it under *NODE or correct the id", block, location);
+      tell_undefined(fmt::format("node {}{}", scope->prefix, id), "define it under *NODE or correct the id", block,
+                     location);
     }
     poison(block);
   }
@@ -125,7 +130,8 @@ std::optional<std::int32_t> Builder::require_node(std::int64_t id, const Block& 
 
 const Scope* Builder::scope_of_instance(std::string_view name) const {
   for (const auto& candidate : scopes) {
-    if (!candidate.prefix.empty() && std::string_view(candidate.prefix).substr(0, candidate.prefix.size() - 1) == name) {
+    if (!candidate.prefix.empty() &&
+        std::string_view(candidate.prefix).substr(0, candidate.prefix.size() - 1) == name) {
       return &candidate;
     }
   }
@@ -160,15 +166,16 @@ bool Builder::nodes_of(std::string_view field, const Block& block, Location loca
   return true;
 }
 
-bool Builder::elements_of(std::string_view field, const Block& block, Location location, std::vector<ElementRef>& elements) {
+bool Builder::elements_of(std::string_view field, const Block& block, Location location,
+                          std::vector<ElementRef>& elements) {
   if (const auto id = parse_integer(field)) {
     const auto found = element(*id);
     if (found) {
       elements.push_back(*found);
     } else {
       if (!mesh_incomplete) {
-        tell_undefined(fmt::format("element {}{}", scope->prefix, *id), "define it under *ELEMENT or correct the id", block,
-                       location);
+        tell_undefined(fmt::format("element {}{}", scope->prefix, *id), "define it under *ELEMENT or correct the id",
+                       block, location);
       }
       poison(block);
     }
@@ -239,7 +246,9 @@ Row::Row(Builder& builder, const Block& block, const DataLine& line) : builder_(
   split(line.text, fields_);
 }
 
-std::string Row::name(int field) const { return clean_name(text(field)); }
+std::string Row::name(int field) const {
+  return clean_name(text(field));
+}
 
 void Row::error(std::string text) {
   ok_ = false;
@@ -266,7 +275,8 @@ std::int64_t Row::integer(int field, const char* what) {
 void Row::at_most(int fields) {
   for (int field = fields; field < size(); ++field) {
     if (!has(field)) continue;
-    error(fmt::format("field {} ('{}') is not known: the line has at most {} here; remove it", field + 1, text(field), fields));
+    error(fmt::format("field {} ('{}') is not known: the line has at most {} here; remove it", field + 1, text(field),
+                      fields));
     return;
   }
 }

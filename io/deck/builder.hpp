@@ -25,10 +25,11 @@ struct Names {
 
 /// Whose names and ids a block speaks of: the whole deck, or an instance, whose ids are shifted to be unique.
 struct Scope {
-  std::string prefix;  // "" or "INSTANCE."
+  std::string prefix;                                       // "" or "INSTANCE."
   std::optional<std::int64_t> node_offset, element_offset;  // set when the first node or element is defined
   std::int64_t largest_node = 0, largest_element = 0;       // before the shift
-  std::array<Point, 3> rotation{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // x -> rotation (x + translation - centre) + centre
+  std::array<Point, 3> rotation{
+      {{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};  // x -> rotation (x + translation - centre) + centre
   Point translation{}, centre{};
 
   Point place(const Point& local) const;
@@ -63,20 +64,20 @@ class Builder {
   std::set<std::int32_t> unsorted_node_sets;
   std::set<std::int32_t> absolute_amplitudes;  // *AMPLITUDE, VALUE=ABSOLUTE: magnitudes that refer to them become 1
   NodeSystem node_system;
-  std::set<std::size_t> without_field, without_history;  // steps that asked for no output, FREQUENCY=0
-  std::map<std::string, std::set<std::int32_t>> contact_pair_sets;  // *CONTACT PAIR, CPSET=
-  std::map<std::int32_t, double> slip_tolerance;                    // interaction -> *FRICTION, SLIP TOLERANCE
+  std::set<std::size_t> without_field, without_history;                   // steps that asked for no output, FREQUENCY=0
+  std::map<std::string, std::set<std::int32_t>> contact_pair_sets;        // *CONTACT PAIR, CPSET=
+  std::map<std::int32_t, double> slip_tolerance;                          // interaction -> *FRICTION, SLIP TOLERANCE
   std::vector<std::pair<std::string, Location>> asked_element_variables;  // by name, to be checked against the elements
-  std::unordered_map<std::int32_t, std::int32_t> body_of_reference;  // reference node -> Model::rigid_bodies
-  std::vector<BoundaryCondition> initial_boundary;                   // *BOUNDARY before the first step
+  std::unordered_map<std::int32_t, std::int32_t> body_of_reference;       // reference node -> Model::rigid_bodies
+  std::vector<BoundaryCondition> initial_boundary;                        // *BOUNDARY before the first step
 
   std::deque<Scope> scopes{1};  // the first is the whole deck's
   Scope* scope = &scopes.front();
-  StepDraft draft;              // the step being read
+  StepDraft draft;                       // the step being read
   std::set<const Block*> refused_steps;  // *STEP blocks in which something was refused
   bool in_step = false;
-  bool first_pass = false;      // nodes and elements phases: what refers to things defined further down is put off
-  bool put_off = false;         // set by a handler that wants to be called again
+  bool first_pass = false;       // nodes and elements phases: what refers to things defined further down is put off
+  bool put_off = false;          // set by a handler that wants to be called again
   bool mesh_incomplete = false;  // nodes, elements or sets were refused: what they leave undefined is not told again
 
   void error(const Block& block, Location location, std::string text);

@@ -16,7 +16,8 @@ std::optional<std::int32_t> reference_node(Builder& builder, const Block& block)
   std::vector<std::int32_t> rows;
   if (!builder.nodes_of(block.value("REF NODE"), block, block.location, rows)) return std::nullopt;
   if (rows.size() == 1) return rows[0];
-  builder.error(block, block.location, fmt::format("REF NODE={} stands for {} nodes; give one", block.value("REF NODE"), rows.size()));
+  builder.error(block, block.location,
+                fmt::format("REF NODE={} stands for {} nodes; give one", block.value("REF NODE"), rows.size()));
   return std::nullopt;
 }
 
@@ -46,15 +47,18 @@ void declare(Builder& builder, const Block& block, std::int32_t reference) {
   body.at_center_of_mass = squeeze(block.value("POSITION")) == "CENTEROFMASS";
   bool good = nodes_of_parameter(builder, block, "TIE NSET", body.tie_nodes) &
               nodes_of_parameter(builder, block, "PIN NSET", body.pin_nodes);
-  if (block.has("ELSET")) good = builder.elements_of(block.value("ELSET"), block, block.location, body.elements) && good;
+  if (block.has("ELSET"))
+    good = builder.elements_of(block.value("ELSET"), block, block.location, body.elements) && good;
   if (block.has("ANALYTICAL SURFACE")) {
     const auto surface = builder.require(builder.surfaces, block.value("ANALYTICAL SURFACE"), block, block.location);
     good = good && surface;
     body.analytical_surface = surface.value_or(-1);
     if (surface && builder.model.surfaces[*surface].kind != Surface::Kind::analytical) {
       if (!builder.is_poisoned(block.value("ANALYTICAL SURFACE"))) {
-        builder.error(block, block.location, fmt::format("surface {} is not analytical; use TYPE=CYLINDER, REVOLUTION or SEGMENTS, "
-                                                         "or ELSET= for a body of elements", block.value("ANALYTICAL SURFACE")));
+        builder.error(block, block.location,
+                      fmt::format("surface {} is not analytical; use TYPE=CYLINDER, REVOLUTION or SEGMENTS, "
+                                  "or ELSET= for a body of elements",
+                                  block.value("ANALYTICAL SURFACE")));
       }
       good = false;
     }
@@ -89,8 +93,10 @@ void change(Builder& builder, const Block& block, std::int32_t body) {
   add("RELEASE NSET", true, true);
   for (const char* parameter : {"ELSET", "ANALYTICAL SURFACE", "POSITION"}) {
     if (block.has(parameter)) {
-      builder.error(block, block.location, fmt::format("{} cannot change in a step; inside a step *RIGID BODY takes REF NODE, TIE NSET, "
-                                                       "PIN NSET and RELEASE NSET", parameter));
+      builder.error(block, block.location,
+                    fmt::format("{} cannot change in a step; inside a step *RIGID BODY takes REF NODE, TIE NSET, "
+                                "PIN NSET and RELEASE NSET",
+                                parameter));
     }
   }
 }
@@ -103,18 +109,23 @@ void read_rigid_body(Builder& builder, const Block& block) {
   if (builder.in_step) {
     if (known != builder.body_of_reference.end()) return change(builder, block, known->second);
     if (builder.is_poisoned(block.value("REF NODE"))) return;
-    return builder.error(block, block.location, fmt::format("node {} is not the reference node of a rigid body; declare *RIGID BODY, "
-                                                            "REF NODE={} before the first step", id, id));
+    return builder.error(block, block.location,
+                         fmt::format("node {} is not the reference node of a rigid body; declare *RIGID BODY, "
+                                     "REF NODE={} before the first step",
+                                     id, id));
   }
-  if (block.has("RELEASE NSET")) return builder.error(block, block.location, "RELEASE NSET belongs inside a *STEP; move it there");
+  if (block.has("RELEASE NSET"))
+    return builder.error(block, block.location, "RELEASE NSET belongs inside a *STEP; move it there");
   if (known != builder.body_of_reference.end()) {
-    return builder.error(block, block.location, fmt::format("node {} is the reference node of two rigid bodies; give each its own", id));
+    return builder.error(block, block.location,
+                         fmt::format("node {} is the reference node of two rigid bodies; give each its own", id));
   }
   declare(builder, block, *reference);
 }
 
-const std::vector<ParameterRule> parameters{required(name("REF NODE")), name("ELSET"), name("PIN NSET"), name("TIE NSET"),
-                                            name("RELEASE NSET"), choice("POSITION", {"INPUT", "CENTER OF MASS"}),
+const std::vector<ParameterRule> parameters{required(name("REF NODE")), name("ELSET"),
+                                            name("PIN NSET"),           name("TIE NSET"),
+                                            name("RELEASE NSET"),       choice("POSITION", {"INPUT", "CENTER OF MASS"}),
                                             name("ANALYTICAL SURFACE")};
 
 const RegisterKeyword rigid_body{{"RIGID BODY", Phase::constraints, Place::anywhere, parameters, read_rigid_body}};

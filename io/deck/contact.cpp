@@ -13,14 +13,18 @@ namespace balocco::deck {
 
 namespace {
 
-Interaction& current(Builder& builder) { return builder.model.interactions.back(); }
+Interaction& current(Builder& builder) {
+  return builder.model.interactions.back();
+}
 
 void read_interaction(Builder& builder, const Block& block) {
   const auto full = builder.define(builder.interactions, block.value("NAME"),
                                    static_cast<std::int32_t>(builder.model.interactions.size()), block);
-  for (const auto& line : block.lines) {  // Abaqus writes the out-of-plane thickness "1.," of two-dimensional models here
+  for (const auto& line :
+       block.lines) {  // Abaqus writes the out-of-plane thickness "1.," of two-dimensional models here
     Row row(builder, block, line);
-    if (row.real_or(0, 1.0, "out-of-plane thickness") != 1.0) row.error("models are three-dimensional: remove the data line");
+    if (row.real_or(0, 1.0, "out-of-plane thickness") != 1.0)
+      row.error("models are three-dimensional: remove the data line");
   }
   Interaction interaction;
   interaction.name = full.value_or(block.value("NAME"));
@@ -33,19 +37,23 @@ void read_friction(Builder& builder, const Block& block) {
   Row row(builder, block, block.lines[0]);
   const double coefficient = row.real_or(0, 0.0, "friction coefficient");
   row.at_most(1);
-  if (row.ok() && coefficient < 0.0) row.error(fmt::format("coefficient {} must not be negative; correct it", coefficient));
-  if (block.lines.size() > 1) builder.error(block, block.lines[1].location, "tables of friction are not supported; give one coefficient");
+  if (row.ok() && coefficient < 0.0)
+    row.error(fmt::format("coefficient {} must not be negative; correct it", coefficient));
+  if (block.lines.size() > 1)
+    builder.error(block, block.lines[1].location, "tables of friction are not supported; give one coefficient");
   current(builder).friction = coefficient;
   if (block.has("SLIP TOLERANCE")) {
     const double tolerance = block.real("SLIP TOLERANCE", 0.0);
     if (!(tolerance > 0.0) || block.has("ELASTIC SLIP")) {
-      return builder.error(block, block.location, "SLIP TOLERANCE must be positive and stand without ELASTIC SLIP; correct it");
+      return builder.error(block, block.location,
+                           "SLIP TOLERANCE must be positive and stand without ELASTIC SLIP; correct it");
     }
     builder.slip_tolerance[static_cast<std::int32_t>(builder.model.interactions.size()) - 1] = tolerance;
   }
   if (block.has("ELASTIC SLIP")) {
     current(builder).elastic_slip = block.real("ELASTIC SLIP", 0.0);
-    if (!(*current(builder).elastic_slip > 0.0)) builder.error(block, block.location, "ELASTIC SLIP must be positive; correct it");
+    if (!(*current(builder).elastic_slip > 0.0))
+      builder.error(block, block.location, "ELASTIC SLIP must be positive; correct it");
   }
 }
 
@@ -53,7 +61,8 @@ void read_friction(Builder& builder, const Block& block) {
 void read_surface_behavior(Builder& builder, const Block& block) {
   if (block.lines.empty()) return;
   if (!block.has("PENALTY")) {
-    return builder.error(block, block.lines[0].location, "data lines are known only with PENALTY (a scale factor of the stiffness); remove them");
+    return builder.error(block, block.lines[0].location,
+                         "data lines are known only with PENALTY (a scale factor of the stiffness); remove them");
   }
   Row row(builder, block, block.lines[0]);
   const double scale = row.real_or(0, 1.0, "scale of the penalty stiffness");
@@ -96,14 +105,16 @@ void apply_slip_tolerance(Builder& builder, std::int32_t pair) {
     const auto& corners = table.type->faces[face.face];
     for (std::size_t k = 0; k < corners.size(); ++k) {
       const auto at = [&](std::size_t corner) {
-        return builder.model.nodes.coordinates[table.connectivity[face.element.row * table.type->nodes + corners[corner]]];
+        return builder.model.nodes
+            .coordinates[table.connectivity[face.element.row * table.type->nodes + corners[corner]]];
       };
       sum += norm(subtract(at((k + 1) % corners.size()), at(k)));
       ++edges;
     }
   }
   // A surface of nodes has no edges: the automatic elastic slip stays.
-  if (edges > 0) builder.model.interactions[interaction].elastic_slip = tolerance->second * sum / static_cast<double>(edges);
+  if (edges > 0)
+    builder.model.interactions[interaction].elastic_slip = tolerance->second * sum / static_cast<double>(edges);
 }
 
 /// Adds the pair, or in a step takes up the one that is known (a deck may repeat its pairs for the explicit steps).
@@ -114,8 +125,10 @@ void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t inter
   const bool told = builder.is_poisoned(row.name(0)) || builder.is_poisoned(row.name(1));
   if (all[(*surfaces)[1]].kind != Surface::Kind::analytical || all[(*surfaces)[0]].kind == Surface::Kind::analytical) {
     if (!told) {
-      row.error(fmt::format("slave {} and master {} do not fit: the slave is made of element faces or nodes, the master is an analytical "
-                            "rigid surface; swap or replace them", row.name(0), row.name(1)));
+      row.error(fmt::format(
+          "slave {} and master {} do not fit: the slave is made of element faces or nodes, the master is an analytical "
+          "rigid surface; swap or replace them",
+          row.name(0), row.name(1)));
     }
     return;
   }
@@ -136,7 +149,8 @@ void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t inter
 
 void read_contact_pair(Builder& builder, const Block& block) {
   const auto interaction = builder.require(builder.interactions, block.value("INTERACTION"), block, block.location);
-  if (block.lines.empty()) return builder.error(block, block.location, "the surfaces are missing; add a line slave, master");
+  if (block.lines.empty())
+    return builder.error(block, block.location, "the surfaces are missing; add a line slave, master");
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     if (block.value("OP") == "DELETE") {
@@ -151,7 +165,8 @@ void read_contact_pair(Builder& builder, const Block& block) {
 }
 
 void read_contact_pair_in_model(Builder& builder, const Block& block) {
-  if (block.value("OP") == "DELETE") return builder.error(block, block.location, "OP=DELETE belongs inside a *STEP; move it there");
+  if (block.value("OP") == "DELETE")
+    return builder.error(block, block.location, "OP=DELETE belongs inside a *STEP; move it there");
   read_contact_pair(builder, block);
 }
 
@@ -177,18 +192,32 @@ void read_model_change(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword interaction{{"SURFACE INTERACTION", Phase::definitions, Place::anywhere, {required(name("NAME"))}, read_interaction}};
-const RegisterKeyword friction{{"FRICTION", Phase::definitions, Place::anywhere, {real("ELASTIC SLIP"), real("SLIP TOLERANCE")}, read_friction,
+const RegisterKeyword interaction{
+    {"SURFACE INTERACTION", Phase::definitions, Place::anywhere, {required(name("NAME"))}, read_interaction}};
+const RegisterKeyword friction{{"FRICTION",
+                                Phase::definitions,
+                                Place::anywhere,
+                                {real("ELASTIC SLIP"), real("SLIP TOLERANCE")},
+                                read_friction,
                                 "SURFACE INTERACTION"}};
-const RegisterKeyword behavior{{"SURFACE BEHAVIOR", Phase::definitions, Place::anywhere,
+const RegisterKeyword behavior{{"SURFACE BEHAVIOR",
+                                Phase::definitions,
+                                Place::anywhere,
                                 {choice("PRESSURE-OVERCLOSURE", {"HARD"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
-                                read_surface_behavior, "SURFACE INTERACTION"}};
-const RegisterKeyword pair{{"CONTACT PAIR", Phase::history, Place::anywhere,
-                            {required(name("INTERACTION")), choice("TYPE", {"NODE TO SURFACE"}),
-                             choice("MECHANICAL CONSTRAINT", {"PENALTY"}), choice("OP", {"ADD", "DELETE"}), name("CPSET")},
-                            read_pair}};
-const RegisterKeyword change{{"MODEL CHANGE", Phase::history, Place::step,
-                              {required(choice("TYPE", {"CONTACT PAIR"})), flag("ADD"), flag("REMOVE")}, read_model_change}};
+                                read_surface_behavior,
+                                "SURFACE INTERACTION"}};
+const RegisterKeyword pair{
+    {"CONTACT PAIR",
+     Phase::history,
+     Place::anywhere,
+     {required(name("INTERACTION")), choice("TYPE", {"NODE TO SURFACE"}), choice("MECHANICAL CONSTRAINT", {"PENALTY"}),
+      choice("OP", {"ADD", "DELETE"}), name("CPSET")},
+     read_pair}};
+const RegisterKeyword change{{"MODEL CHANGE",
+                              Phase::history,
+                              Place::step,
+                              {required(choice("TYPE", {"CONTACT PAIR"})), flag("ADD"), flag("REMOVE")},
+                              read_model_change}};
 
 }  // namespace
 

@@ -1,4 +1,5 @@
-// *HEADING *UNITS *PREPRINT *AMPLITUDE *ORIENTATION *TRANSFORM *TIME POINTS, and the structure keywords that the schedule handles.
+// *HEADING *UNITS *PREPRINT *AMPLITUDE *ORIENTATION *TRANSFORM *TIME POINTS, and the structure keywords that the
+// schedule handles.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -21,7 +22,9 @@ void read_heading(Builder& builder, const Block& block) {
 }
 
 void read_units(Builder& builder, const Block& block) {
-  const auto raw = [&](const char* parameter) { return block.has(parameter) ? block.find(parameter)->raw : std::string(); };
+  const auto raw = [&](const char* parameter) {
+    return block.has(parameter) ? block.find(parameter)->raw : std::string();
+  };
   builder.model.units = {raw("LENGTH"), raw("MASS"), raw("TIME")};
 }
 
@@ -44,7 +47,8 @@ void fill_tabular(Builder& builder, const Block& block, Amplitude& amplitude, co
                   const std::vector<Location>& locations) {
   if (squeeze(block.value("DEFINITION")) == "EQUALLYSPACED") {
     const double interval = block.real("FIXED INTERVAL", 0.0), begin = block.real("BEGIN", 0.0);
-    if (!(interval > 0.0)) return builder.error(block, block.location, "FIXED INTERVAL must be positive; add FIXED INTERVAL=...");
+    if (!(interval > 0.0))
+      return builder.error(block, block.location, "FIXED INTERVAL must be positive; add FIXED INTERVAL=...");
     for (std::size_t k = 0; k < numbers.size(); ++k) {
       amplitude.points.push_back({begin + interval * static_cast<double>(k), numbers[k]});
     }
@@ -55,8 +59,9 @@ void fill_tabular(Builder& builder, const Block& block, Amplitude& amplitude, co
   }
   for (std::size_t k = 0; k + 1 < numbers.size(); k += 2) {
     if (k > 0 && !(numbers[k] > numbers[k - 2])) {
-      return builder.error(block, locations[k], fmt::format("time {} does not come after {}; times must increase", numbers[k],
-                                                            numbers[k - 2]));
+      return builder.error(
+          block, locations[k],
+          fmt::format("time {} does not come after {}; times must increase", numbers[k], numbers[k - 2]));
     }
     amplitude.points.push_back({numbers[k], numbers[k + 1]});
   }
@@ -77,8 +82,9 @@ void fill_periodic(Builder& builder, const Block& block, Amplitude& amplitude) {
   }
   if (!first.ok()) return;
   if (terms < 1 || static_cast<std::int64_t>(numbers.size()) != 2 * terms) {
-    return first.error(fmt::format("{} terms need {} coefficients A1, B1, A2, B2 ..., but {} follow; correct one of them", terms,
-                                   2 * terms, numbers.size()));
+    return first.error(
+        fmt::format("{} terms need {} coefficients A1, B1, A2, B2 ..., but {} follow; correct one of them", terms,
+                    2 * terms, numbers.size()));
   }
   for (std::size_t k = 0; k < numbers.size(); k += 2) amplitude.harmonics.push_back({numbers[k], numbers[k + 1]});
 }
@@ -184,14 +190,16 @@ void read_transform(Builder& builder, const Block& block) {
 void read_time_points(Builder& builder, const Block& block) {
   auto& points = builder.time_points[block.value("NAME")];
   if (!points.empty()) {
-    return builder.error(block, block.location, fmt::format("time points {} are defined twice; rename one", block.value("NAME")));
+    return builder.error(block, block.location,
+                         fmt::format("time points {} are defined twice; rename one", block.value("NAME")));
   }
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     if (block.has("GENERATE")) {
       const double first = row.real(0, "first time"), last = row.real(1, "last time"), step = row.real(2, "increment");
       row.at_most(3);
-      if (row.ok() && !(step > 0.0 && last >= first)) row.error("it generates nothing; give first <= last and a positive increment");
+      if (row.ok() && !(step > 0.0 && last >= first))
+        row.error("it generates nothing; give first <= last and a positive increment");
       if (!row.ok()) continue;
       // Half an increment of slack, so that round-off does not lose the last point.
       for (int k = 0; first + k * step <= last + 0.5 * step; ++k) points.push_back(first + k * step);
@@ -201,31 +209,37 @@ void read_time_points(Builder& builder, const Block& block) {
   }
   for (std::size_t k = 1; k < points.size(); ++k) {
     if (!(points[k] > points[k - 1])) {
-      return builder.error(block, block.location, fmt::format("time {} does not come after {}; times must increase", points[k],
-                                                              points[k - 1]));
+      return builder.error(
+          block, block.location,
+          fmt::format("time {} does not come after {}; times must increase", points[k], points[k - 1]));
     }
   }
   if (points.empty()) builder.error(block, block.location, "it has no times; add data lines");
 }
 
 const RegisterKeyword heading{{"HEADING", Phase::definitions, Place::model, {}, read_heading}};
-const RegisterKeyword units{{"UNITS", Phase::definitions, Place::model, {text("LENGTH"), text("MASS"), text("TIME")}, read_units}};
+const RegisterKeyword units{
+    {"UNITS", Phase::definitions, Place::model, {text("LENGTH"), text("MASS"), text("TIME")}, read_units}};
 // *PREPRINT chooses what Abaqus's preprocessor prints to a file that does not exist here.
 const RegisterKeyword preprint{{.keyword = "PREPRINT", .place = Place::model, .any_parameter = true}};
 const RegisterKeyword amplitude{
-    {"AMPLITUDE", Phase::definitions, Place::anywhere,
+    {"AMPLITUDE",
+     Phase::definitions,
+     Place::anywhere,
      {required(name("NAME")), choice("DEFINITION", {"TABULAR", "SMOOTH STEP", "EQUALLY SPACED", "PERIODIC"}),
       choice("TIME", {"STEP TIME", "TOTAL TIME", "STEP", "TOTAL"}), choice("VALUE", {"RELATIVE", "ABSOLUTE"}),
       real("FIXED INTERVAL"), real("BEGIN")},
      read_amplitude}};
-const RegisterKeyword orientation{{"ORIENTATION", Phase::definitions, Place::model,
-                                   {required(name("NAME")), choice("SYSTEM", {"RECTANGULAR", "CYLINDRICAL"}),
-                                    choice("DEFINITION", {"COORDINATES"})},
-                                   read_orientation}};
-const RegisterKeyword transform{{"TRANSFORM", Phase::surfaces, Place::model,
-                                 {required(name("NSET")), choice("TYPE", {"R", "C"})}, read_transform}};
-const RegisterKeyword time_points{{"TIME POINTS", Phase::definitions, Place::anywhere,
-                                   {required(name("NAME")), flag("GENERATE")}, read_time_points}};
+const RegisterKeyword orientation{
+    {"ORIENTATION",
+     Phase::definitions,
+     Place::model,
+     {required(name("NAME")), choice("SYSTEM", {"RECTANGULAR", "CYLINDRICAL"}), choice("DEFINITION", {"COORDINATES"})},
+     read_orientation}};
+const RegisterKeyword transform{
+    {"TRANSFORM", Phase::surfaces, Place::model, {required(name("NSET")), choice("TYPE", {"R", "C"})}, read_transform}};
+const RegisterKeyword time_points{
+    {"TIME POINTS", Phase::definitions, Place::anywhere, {required(name("NAME")), flag("GENERATE")}, read_time_points}};
 
 const RegisterKeyword part{{.keyword = "PART", .parameters = {required(name("NAME"))}}};
 const RegisterKeyword end_part{{.keyword = "END PART"}};

@@ -38,7 +38,8 @@ std::vector<std::string> Diagnostics::format(std::vector<Message> messages, cons
   });
   std::vector<std::string> result;
   for (const auto& [location, keyword, text] : messages) {
-    const std::string place = location.file < 0 ? files.at(0) : fmt::format("{}:{}", files.at(location.file), location.line);
+    const std::string place =
+        location.file < 0 ? files.at(0) : fmt::format("{}:{}", files.at(location.file), location.line);
     const std::string subject = keyword.empty() ? "" : "*" + keyword + ": ";
     std::string line = fmt::format("{}: {}: {}{}", place, severity, subject, text);
     if (std::find(result.begin(), result.end(), line) == result.end()) result.push_back(std::move(line));

@@ -23,12 +23,15 @@ std::int32_t table_of(Builder& builder, const ElementType* type) {
 }
 
 /// Nodes of an element about to be added, checked for repetition.
-bool distinct(Builder& builder, const Block& block, Location location, std::int64_t id, std::span<const std::int32_t> nodes) {
+bool distinct(Builder& builder, const Block& block, Location location, std::int64_t id,
+              std::span<const std::int32_t> nodes) {
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (nodes[i] != nodes[j]) continue;
-      builder.error(block, location, fmt::format("element {} has node {} twice; use an element type with fewer nodes or correct "
-                                                 "the connectivity", id, builder.model.nodes.id[nodes[i]]));
+      builder.error(block, location,
+                    fmt::format("element {} has node {} twice; use an element type with fewer nodes or correct "
+                                "the connectivity",
+                                id, builder.model.nodes.id[nodes[i]]));
       return false;
     }
   }
@@ -48,8 +51,9 @@ std::optional<ElementRef> add_element(Builder& builder, const Block& block, Loca
   const auto [place, added] = builder.element_of_id.emplace(unique, reference);
   if (!added) {
     const auto& other = builder.model.elements[place->second.table];
-    builder.error(block, location, fmt::format("element {} is defined twice, first at {}; give one of them another id", id,
-                                               builder.model.where(other.location[place->second.row])));
+    builder.error(block, location,
+                  fmt::format("element {} is defined twice, first at {}; give one of them another id", id,
+                              builder.model.where(other.location[place->second.row])));
     return std::nullopt;
   }
   builder.scope->largest_element = std::max(builder.scope->largest_element, id);
@@ -66,8 +70,9 @@ const ElementType* type_of(Builder& builder, const Block& block) {
   if (type == nullptr) {
     std::vector<std::string> known;
     for (const auto* candidate : element_types()) known.push_back(candidate->name);
-    builder.error(block, block.location, fmt::format("element type {} is unknown or not supported{}; supported: {}", name,
-                                                     did_you_mean(name, known), join(known)));
+    builder.error(block, block.location,
+                  fmt::format("element type {} is unknown or not supported{}; supported: {}", name,
+                              did_you_mean(name, known), join(known)));
   }
   return type;
 }
@@ -128,14 +133,17 @@ class ElementReader {
   }
 
   void tell_bad_field(const DataLine& data, std::size_t field) {
-    builder_.error(block_, data.location, fmt::format("field {} ('{}') should be a whole number: element id or node; correct it",
-                                                      field + 1, fields_[field]));
+    builder_.error(block_, data.location,
+                   fmt::format("field {} ('{}') should be a whole number: element id or node; correct it", field + 1,
+                               fields_[field]));
   }
 
   void finish(std::int64_t id, Location location) {
     if (static_cast<int>(nodes_.size()) != type_.nodes) {
-      builder_.error(block_, location, fmt::format("element {} has {} nodes, but {} needs {}; correct the line or the type (a line "
-                                                   "that goes on ends with a comma)", id, nodes_.size(), type_.name, type_.nodes));
+      builder_.error(block_, location,
+                     fmt::format("element {} has {} nodes, but {} needs {}; correct the line or the type (a line "
+                                 "that goes on ends with a comma)",
+                                 id, nodes_.size(), type_.name, type_.nodes));
       return;
     }
     const auto added = add_element(builder_, block_, location, table_, id, nodes_);
@@ -155,8 +163,8 @@ void read_elements(Builder& builder, const Block& block) {
 }
 
 /// Adds a copy of an element with its node ids shifted.
-std::optional<ElementRef> copy_element(Builder& builder, const Block& block, Location location, ElementRef old, std::int64_t id,
-                                       std::int64_t node_shift) {
+std::optional<ElementRef> copy_element(Builder& builder, const Block& block, Location location, ElementRef old,
+                                       std::int64_t id, std::int64_t node_shift) {
   const ElementTable& elements = builder.model.elements[old.table];
   const int count = elements.type->nodes;
   std::vector<std::int32_t> nodes;
@@ -179,7 +187,8 @@ void generate_elements(Builder& builder, const Block& block) {
     std::array<std::array<std::int64_t, 3>, 3> directions{};
     for (int d = 0; d < 3; ++d) {
       const bool given = row.has(1 + 3 * d);
-      directions[d] = {given ? row.integer(1 + 3 * d, "number of elements") : 1, row.integer_or(2 + 3 * d, 1, "node increment"),
+      directions[d] = {given ? row.integer(1 + 3 * d, "number of elements") : 1,
+                       row.integer_or(2 + 3 * d, 1, "node increment"),
                        row.integer_or(3 + 3 * d, 1, "element increment")};
     }
     row.at_most(10);
@@ -192,8 +201,8 @@ void generate_elements(Builder& builder, const Block& block) {
       for (std::int64_t j = 0; j < v[0]; ++j) {
         for (std::int64_t i = 0; i < u[0]; ++i) {
           if (i == 0 && j == 0 && k == 0) continue;
-          const auto added = copy_element(builder, block, line.location, found[0], master + i * u[2] + j * v[2] + k * w[2],
-                                          i * u[1] + j * v[1] + k * w[1]);
+          const auto added = copy_element(builder, block, line.location, found[0],
+                                          master + i * u[2] + j * v[2] + k * w[2], i * u[1] + j * v[1] + k * w[1]);
           if (added && set >= 0) builder.add_to_element_set(set, *added);
         }
       }
@@ -213,13 +222,15 @@ void copy_elements(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword element{{"ELEMENT", Phase::elements, Place::model,
-                               {required(name("TYPE")), name("ELSET"), text("INPUT")}, read_elements}};
+const RegisterKeyword element{
+    {"ELEMENT", Phase::elements, Place::model, {required(name("TYPE")), name("ELSET"), text("INPUT")}, read_elements}};
 const RegisterKeyword elgen{{"ELGEN", Phase::elements, Place::model, {name("ELSET")}, generate_elements}};
-const RegisterKeyword elcopy{{"ELCOPY", Phase::elements, Place::model,
-                              {required(integer("ELEMENT SHIFT")), required(integer("SHIFT NODES")), required(name("OLD SET")),
-                               name("NEW SET")},
-                              copy_elements}};
+const RegisterKeyword elcopy{
+    {"ELCOPY",
+     Phase::elements,
+     Place::model,
+     {required(integer("ELEMENT SHIFT")), required(integer("SHIFT NODES")), required(name("OLD SET")), name("NEW SET")},
+     copy_elements}};
 
 }  // namespace
 

@@ -126,6 +126,8 @@ class Parser {
 
 }  // namespace
 
-double evaluate(std::string_view expression, const ParameterValues& values) { return Parser(expression, values).whole(); }
+double evaluate(std::string_view expression, const ParameterValues& values) {
+  return Parser(expression, values).whole();
+}
 
 }  // namespace balocco::deck

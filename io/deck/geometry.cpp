@@ -11,15 +11,21 @@ Point between(const Point& from, const Point& to, double fraction) {
   return result;
 }
 
-Point subtract(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point subtract(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 
 Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
-double norm(const Point& a) { return std::sqrt(dot(a, a)); }
+double norm(const Point& a) {
+  return std::sqrt(dot(a, a));
+}
 
 std::optional<std::array<Point, 3>> axes_of_points(const Point& origin, const Point& first, const Point& second) {
   Point x = subtract(first, origin);
@@ -74,8 +80,10 @@ std::optional<Circle> circle_of(Builder& builder, const Block& block, Row& row, 
   const double length = norm(normal), radius = norm(circle.first);
   // 1e-4: hand-written coordinates carry five or six digits.
   if (!(length > 0.0) || std::abs(norm(last) - radius) > 1e-4 * radius) {
-    row.error("the two end nodes and the centre define no circle; correct the centre (equal distances to both ends), and give "
-              "the normal when the three lie on a line");
+    row.error(
+        "the two end nodes and the centre define no circle; correct the centre (equal distances to both ends), and "
+        "give "
+        "the normal when the three lie on a line");
     return std::nullopt;
   }
   for (double& component : normal) component /= length;

@@ -14,7 +14,8 @@ Point cross(const Point& a, const Point& b);
 double dot(const Point& a, const Point& b);
 double norm(const Point& a);
 
-/// Orthonormal axes: the first from `origin` to `first`, the second in the plane of `second`; none if the points lie on a line.
+/// Orthonormal axes: the first from `origin` to `first`, the second in the plane of `second`; none if the points lie on
+/// a line.
 std::optional<std::array<Point, 3>> axes_of_points(const Point& origin, const Point& first, const Point& second);
 
 /// Any two directions that make a right-handed orthonormal triad with the unit vector `axis` as the third.
@@ -46,7 +47,8 @@ std::optional<Shift> shift_of(Builder& builder, const Block& block);
 /// Rotation by `angle` (radians) about the unit vector `axis`.
 std::array<Point, 3> rotation_about(const Point& axis, double angle);
 
-/// Reads "ax, ay, az, bx, by, bz, angle in degrees" and turns `centre` and `rotation` accordingly; told if it cannot be.
+/// Reads "ax, ay, az, bx, by, bz, angle in degrees" and turns `centre` and `rotation` accordingly; told if it cannot
+/// be.
 bool read_rotation(Row& row, Point& centre, std::array<Point, 3>& rotation);
 
 }  // namespace balocco::deck

@@ -1,8 +1,7 @@
-// *BOUNDARY *CLOAD *DLOAD *DSLOAD *INITIAL CONDITIONS.
+// *BOUNDARY *CLOAD *DLOAD *DSLOAD.
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
 
 #include "deck/builder.hpp"
@@ -15,13 +14,20 @@ namespace balocco::deck {
 
 namespace {
 
-Step& current(Builder& builder) { return builder.model.steps.back(); }
+Step& current(Builder& builder) {
+  return builder.model.steps.back();
+}
 
 /// Named conditions and the degrees of freedom (from 0) that they hold.
 const std::map<std::string, std::vector<int>>& named_conditions() {
-  static const std::map<std::string, std::vector<int>> table{
-      {"ENCASTRE", {0, 1, 2, 3, 4, 5}}, {"PINNED", {0, 1, 2}},   {"XSYMM", {0, 4, 5}}, {"YSYMM", {1, 3, 5}},
-      {"ZSYMM", {2, 3, 4}},             {"XASYMM", {1, 2, 3}},   {"YASYMM", {0, 2, 4}}, {"ZASYMM", {0, 1, 5}}};
+  static const std::map<std::string, std::vector<int>> table{{"ENCASTRE", {0, 1, 2, 3, 4, 5}},
+                                                             {"PINNED", {0, 1, 2}},
+                                                             {"XSYMM", {0, 4, 5}},
+                                                             {"YSYMM", {1, 3, 5}},
+                                                             {"ZSYMM", {2, 3, 4}},
+                                                             {"XASYMM", {1, 2, 3}},
+                                                             {"YASYMM", {0, 2, 4}},
+                                                             {"ZASYMM", {0, 1, 5}}};
   return table;
 }
 
@@ -35,7 +41,9 @@ double scaled(const Builder& builder, std::int32_t amplitude, double magnitude) 
   return builder.absolute_amplitudes.contains(amplitude) ? 1.0 : magnitude;
 }
 
-bool turns(const Builder& builder, std::int32_t node) { return builder.body_of_reference.contains(node); }
+bool turns(const Builder& builder, std::int32_t node) {
+  return builder.body_of_reference.contains(node);
+}
 
 /// Degrees of freedom and magnitude of a data line.
 struct Freedoms {
@@ -51,8 +59,9 @@ std::optional<Freedoms> freedoms_of(Row& row) {
     if (found == named_conditions().end()) {
       std::vector<std::string> names;
       for (const auto& [name, dofs] : named_conditions()) names.push_back(name);
-      row.error(fmt::format("field 2 ('{}') is neither a degree of freedom nor a named condition{}; allowed: 1 to 6, {}", row.text(1),
-                            did_you_mean(row.text(1), names), join(names)));
+      row.error(
+          fmt::format("field 2 ('{}') is neither a degree of freedom nor a named condition{}; allowed: 1 to 6, {}",
+                      row.text(1), did_you_mean(row.text(1), names), join(names)));
       return std::nullopt;
     }
     row.at_most(2);
@@ -60,7 +69,8 @@ std::optional<Freedoms> freedoms_of(Row& row) {
     result.named = true;
     return row.ok() ? std::optional(result) : std::nullopt;
   }
-  const std::int64_t first = row.integer(1, "first degree of freedom"), last = row.integer_or(2, first, "last degree of freedom");
+  const std::int64_t first = row.integer(1, "first degree of freedom"),
+                     last = row.integer_or(2, first, "last degree of freedom");
   result.magnitude = row.real_or(3, 0.0, "magnitude");
   row.at_most(4);
   if (row.ok() && (first < 1 || last > 6 || last < first)) {
@@ -74,7 +84,8 @@ std::optional<Freedoms> freedoms_of(Row& row) {
 void set_condition(Builder& builder, const BoundaryCondition& condition) {
   if (!builder.in_step) return builder.initial_boundary.push_back(condition);
   auto& boundary = current(builder).boundary;
-  const auto [place, added] = builder.draft.boundary_of.emplace(std::int64_t{condition.node} * 6 + condition.dof, boundary.size());
+  const auto [place, added] =
+      builder.draft.boundary_of.emplace(std::int64_t{condition.node} * 6 + condition.dof, boundary.size());
   if (added) {
     boundary.push_back(condition);
   } else {
@@ -101,7 +112,8 @@ BoundaryCondition::Kind kind_of(const Block& block) {
   return type == "ACCELERATION" ? BoundaryCondition::Kind::acceleration : BoundaryCondition::Kind::displacement;
 }
 
-void read_boundary_line(Builder& builder, const Block& block, Row& row, BoundaryCondition condition, bool& told_rotation) {
+void read_boundary_line(Builder& builder, const Block& block, Row& row, BoundaryCondition condition,
+                        bool& told_rotation) {
   if (!row.has(1)) return row.error("field 2 is missing: degree of freedom or named condition; add it");
   std::vector<std::int32_t> nodes;
   const bool known = builder.nodes_of(row.text(0), block, row.location(), nodes);
@@ -118,12 +130,15 @@ void read_boundary_line(Builder& builder, const Block& block, Row& row, Boundary
     for (const int dof : freedoms->dofs) {
       if (dof >= 3 && !turns(builder, node)) {
         if (!freedoms->named && freedoms->magnitude != 0.0) {
-          return row.error(fmt::format("node {} has no rotation to prescribe; only reference nodes of rigid bodies have degrees of freedom "
-                                       "4 to 6", builder.model.nodes.id[node]));
+          return row.error(fmt::format(
+              "node {} has no rotation to prescribe; only reference nodes of rigid bodies have degrees of freedom "
+              "4 to 6",
+              builder.model.nodes.id[node]));
         }
         if (!freedoms->named && !told_rotation) {
-          builder.warning(block, row.location(), fmt::format("node {} has no rotations: degrees of freedom 4 to 6 are left out",
-                                                             builder.model.nodes.id[node]));
+          builder.warning(block, row.location(),
+                          fmt::format("node {} has no rotations: degrees of freedom 4 to 6 are left out",
+                                      builder.model.nodes.id[node]));
           told_rotation = true;
         }
         continue;
@@ -138,7 +153,8 @@ void read_boundary_line(Builder& builder, const Block& block, Row& row, Boundary
 void read_boundary(Builder& builder, const Block& block) {
   if (builder.in_step) {
     renew_boundary(builder, block);
-  } else if (block.has("OP") || block.has("AMPLITUDE") || block.has("FIXED") || kind_of(block) != BoundaryCondition::Kind::displacement) {
+  } else if (block.has("OP") || block.has("AMPLITUDE") || block.has("FIXED") ||
+             kind_of(block) != BoundaryCondition::Kind::displacement) {
     return builder.error(block, block.location, "before the first step it takes no parameters; move it into a *STEP");
   }
   const auto amplitude = amplitude_of(builder, block);
@@ -179,11 +195,13 @@ void read_concentrated(Builder& builder, const Block& block) {
     const std::int64_t dof = row.integer(1, "degree of freedom");
     const double magnitude = row.real(2, "magnitude");
     row.at_most(3);
-    if (row.ok() && (dof < 1 || dof > 6)) row.error(fmt::format("degree of freedom {} does not exist; give 1 to 6", dof));
+    if (row.ok() && (dof < 1 || dof > 6))
+      row.error(fmt::format("degree of freedom {} does not exist; give 1 to 6", dof));
     if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, nodes)) continue;
     for (const auto node : nodes) {
       if (dof > 3 && !turns(builder, node)) {
-        row.error(fmt::format("node {} cannot take a moment; only reference nodes of rigid bodies can", builder.model.nodes.id[node]));
+        row.error(fmt::format("node {} cannot take a moment; only reference nodes of rigid bodies can",
+                              builder.model.nodes.id[node]));
         break;
       }
       const auto [place, added] = index.emplace(std::int64_t{node} * 6 + dof - 1, loads.size());
@@ -209,7 +227,8 @@ void renew_distributed(Builder& builder, const Block& block) {
 
 void set_pressure(Builder& builder, std::int32_t surface, double magnitude, std::int32_t amplitude, Location location) {
   auto& pressures = current(builder).pressures;
-  auto found = std::find_if(pressures.begin(), pressures.end(), [&](const PressureLoad& load) { return load.surface == surface; });
+  auto found = std::find_if(pressures.begin(), pressures.end(),
+                            [&](const PressureLoad& load) { return load.surface == surface; });
   if (found == pressures.end()) found = pressures.insert(pressures.end(), PressureLoad{surface});
   found->magnitude = scaled(builder, amplitude, magnitude);
   found->amplitude = amplitude;
@@ -227,7 +246,8 @@ void read_surface_load(Builder& builder, const Block& block) {
     const auto surface = builder.require(builder.surfaces, row.name(0), block, line.location);
     const double magnitude = row.real(2, "pressure");
     row.at_most(3);
-    if (row.ok() && row.name(1) != "P") row.error(fmt::format("load type '{}' is not supported; allowed: P", row.text(1)));
+    if (row.ok() && row.name(1) != "P")
+      row.error(fmt::format("load type '{}' is not supported; allowed: P", row.text(1)));
     if (!row.ok() || !surface) continue;
     if (builder.model.surfaces[*surface].kind != Surface::Kind::element_faces) {
       row.error(fmt::format("surface {} has no element faces to press on; use a surface of TYPE=ELEMENT", row.name(0)));
@@ -329,62 +349,19 @@ void read_distributed(Builder& builder, const Block& block) {
   }
 }
 
-void read_velocities(Builder& builder, const Block& block) {
-  for (const auto& line : block.lines) {
-    Row row(builder, block, line);
-    InitialVelocity velocity;
-    velocity.location = line.location;
-    const std::int64_t dof = row.integer(1, "degree of freedom");
-    const double value = row.real(2, "velocity");
-    row.at_most(3);
-    if (row.ok() && (dof < 1 || dof > 3)) row.error(fmt::format("degree of freedom {} has no initial velocity; give 1 to 3", dof));
-    if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, velocity.nodes)) continue;
-    velocity.velocity[dof - 1] = value;
-    builder.model.initial_velocities.push_back(std::move(velocity));
-  }
-}
-
-/// Pairs of lines: nodes, angular speed, velocity of the axis; two points of the axis.
-void read_rotating_velocities(Builder& builder, const Block& block) {
-  if (block.lines.size() % 2 != 0) {
-    return builder.error(block, block.location, "each line 'nodes, angular speed, vx, vy, vz' needs a line with two points of the axis; add it");
-  }
-  for (std::size_t line = 0; line < block.lines.size(); line += 2) {
-    Row row(builder, block, block.lines[line]), axis(builder, block, block.lines[line + 1]);
-    InitialVelocity rotation;
-    rotation.kind = InitialVelocity::Kind::rotation;
-    rotation.location = row.location();
-    rotation.angular_speed = row.real(1, "angular speed");
-    Point second{};
-    for (int i = 0; i < 3; ++i) {
-      rotation.velocity[i] = row.real_or(2 + i, 0.0, "velocity of the axis");
-      rotation.axis_point[i] = axis.real_or(i, 0.0, "first point of the axis");
-      second[i] = axis.real_or(3 + i, 0.0, "second point of the axis");
-    }
-    row.at_most(5);
-    axis.at_most(6);
-    rotation.axis_direction = subtract(second, rotation.axis_point);
-    const double length = norm(rotation.axis_direction);
-    if (axis.ok() && !(length > 0.0)) axis.error("the two points of the axis coincide; correct them");
-    if (!row.ok() || !axis.ok() || !builder.nodes_of(row.text(0), block, row.location(), rotation.nodes)) continue;
-    for (double& component : rotation.axis_direction) component /= length;
-    builder.model.initial_velocities.push_back(std::move(rotation));
-  }
-}
-
-void read_initial_conditions(Builder& builder, const Block& block) {
-  block.value("TYPE") == "VELOCITY" ? read_velocities(builder, block) : read_rotating_velocities(builder, block);
-}
-
-const RegisterKeyword boundary{{"BOUNDARY", Phase::history, Place::anywhere,
-                                {choice("OP", {"MOD", "NEW"}), choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ACCELERATION"}),
-                                 name("AMPLITUDE"), flag("FIXED")},
-                                read_boundary}};
-const RegisterKeyword cload{{"CLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_concentrated}};
-const RegisterKeyword dload{{"DLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_distributed}};
-const RegisterKeyword dsload{{"DSLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_surface_load}};
-const RegisterKeyword initial{{"INITIAL CONDITIONS", Phase::constraints, Place::model,
-                               {required(choice("TYPE", {"VELOCITY", "ROTATING VELOCITY"}))}, read_initial_conditions}};
+const RegisterKeyword boundary{
+    {"BOUNDARY",
+     Phase::history,
+     Place::anywhere,
+     {choice("OP", {"MOD", "NEW"}), choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ACCELERATION"}), name("AMPLITUDE"),
+      flag("FIXED")},
+     read_boundary}};
+const RegisterKeyword cload{
+    {"CLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_concentrated}};
+const RegisterKeyword dload{
+    {"DLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_distributed}};
+const RegisterKeyword dsload{
+    {"DSLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_surface_load}};
 
 }  // namespace
 

@@ -13,7 +13,9 @@ namespace balocco::deck {
 
 namespace {
 
-Material& current(Builder& builder) { return builder.model.materials.back(); }
+Material& current(Builder& builder) {
+  return builder.model.materials.back();
+}
 
 void read_material(Builder& builder, const Block& block) {
   const auto full = builder.define(builder.materials, block.value("NAME"),
@@ -77,7 +79,9 @@ const MaterialLaw* chosen_law(Builder& builder, const Block& block) {
   return nullptr;
 }
 
-bool within(const ParameterSpec& spec, double value) { return value > spec.minimum && value < spec.maximum; }
+bool within(const ParameterSpec& spec, double value) {
+  return value > spec.minimum && value < spec.maximum;
+}
 
 /// Abaqus takes D1 = 0 for incompressible; no element here is, so a bulk modulus is put in its place.
 void warn_if_incompressible(Builder& builder, const Block& block, const MaterialLaw& law) {
@@ -95,8 +99,8 @@ void read_law(Builder& builder, const Block& block) {
   if (law == nullptr) return;
   Material& material = current(builder);
   if (!material.law.empty()) {
-    return builder.error(block, block.location, fmt::format("material {} already has the law {}; keep one", material.name,
-                                                            material.law));
+    return builder.error(block, block.location,
+                         fmt::format("material {} already has the law {}; keep one", material.name, material.law));
   }
   material.law = law->name;
   if (block.lines.empty()) return builder.error(block, block.location, "the parameters are missing; add a data line");
@@ -117,8 +121,8 @@ void read_law(Builder& builder, const Block& block) {
                              : 0.0;
     if (!row->ok()) return;
     if (!within(spec, value)) {
-      return row->error(fmt::format("{} = {} is out of range: {} must lie between {} and {}; correct it", spec.name, value,
-                                    spec.description, spec.minimum, spec.maximum));
+      return row->error(fmt::format("{} = {} is out of range: {} must lie between {} and {}; correct it", spec.name,
+                                    value, spec.description, spec.minimum, spec.maximum));
     }
     material.parameters.push_back(value);
     ++field;
@@ -132,7 +136,8 @@ void read_law(Builder& builder, const Block& block) {
 
 const RegisterKeyword material{{"MATERIAL", Phase::definitions, Place::model, {required(name("NAME"))}, read_material}};
 const RegisterKeyword density{{"DENSITY", Phase::definitions, Place::model, {}, read_density, "MATERIAL"}};
-const RegisterKeyword damping{{"DAMPING", Phase::definitions, Place::model, {real("ALPHA"), real("BETA")}, read_damping, "MATERIAL"}};
+const RegisterKeyword damping{
+    {"DAMPING", Phase::definitions, Place::model, {real("ALPHA"), real("BETA")}, read_damping, "MATERIAL"}};
 
 }  // namespace
 

@@ -151,7 +151,8 @@ void fill_nodes(Builder& builder, const Block& block) {
     std::vector<std::int32_t> from, to;
     const bool known = builder.nodes_of(row.text(0), block, line.location, from) &
                        builder.nodes_of(row.text(1), block, line.location, to);
-    const std::int64_t intervals = row.integer(2, "number of intervals"), increment = row.integer_or(3, 1, "id increment");
+    const std::int64_t intervals = row.integer(2, "number of intervals"),
+                       increment = row.integer_or(3, 1, "id increment");
     row.at_most(4);
     if (!row.ok() || !known) continue;
     if (intervals < 1) {
@@ -195,19 +196,22 @@ void copy_nodes(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword node{{"NODE", Phase::nodes, Place::model,
-                            {name("NSET"), choice("SYSTEM", {"R", "C", "S"}), text("INPUT")}, read_nodes}};
+const RegisterKeyword node{
+    {"NODE", Phase::nodes, Place::model, {name("NSET"), choice("SYSTEM", {"R", "C", "S"}), text("INPUT")}, read_nodes}};
 const RegisterKeyword system_{{"SYSTEM", Phase::nodes, Place::model, {}, read_system}};
 const RegisterKeyword ngen{{"NGEN", Phase::nodes, Place::model, {name("NSET"), choice("LINE", {"C"})}, generate_nodes}};
 const RegisterKeyword nfill{{"NFILL", Phase::nodes, Place::model, {name("NSET"), real("BIAS")}, fill_nodes}};
-const RegisterKeyword ncopy{{"NCOPY", Phase::nodes, Place::model,
+const RegisterKeyword ncopy{{"NCOPY",
+                             Phase::nodes,
+                             Place::model,
                              {required(integer("CHANGE NUMBER")), required(name("OLD SET")), name("NEW SET"),
                               required(flag("SHIFT")), integer("MULTIPLE")},
                              copy_nodes}};
 
 }  // namespace
 
-std::optional<std::int32_t> add_node(Builder& builder, const Block& block, Location location, std::int64_t id, const Point& point) {
+std::optional<std::int32_t> add_node(Builder& builder, const Block& block, Location location, std::int64_t id,
+                                     const Point& point) {
   if (!valid_id(builder, block, location, id, "node")) return std::nullopt;
   auto& nodes = builder.model.nodes;
   auto& scope = *builder.scope;
@@ -215,8 +219,9 @@ std::optional<std::int32_t> add_node(Builder& builder, const Block& block, Locat
   scope.largest_node = std::max(scope.largest_node, id);
   const auto [place, added] = nodes.row_of_id.emplace(id + *scope.node_offset, nodes.size());
   if (!added) {
-    builder.error(block, location, fmt::format("node {} is defined twice, first at {}; give one of them another id", id,
-                                               builder.model.where(nodes.location[place->second])));
+    builder.error(block, location,
+                  fmt::format("node {} is defined twice, first at {}; give one of them another id", id,
+                              builder.model.where(nodes.location[place->second])));
     return std::nullopt;
   }
   nodes.id.push_back(id + *scope.node_offset);

@@ -9,7 +9,8 @@
 namespace balocco::deck {
 
 /// Adds a node of the current scope (`point` in global coordinates) and returns its row; an id that is taken is told.
-std::optional<std::int32_t> add_node(Builder& builder, const Block& block, Location location, std::int64_t id, const Point& point);
+std::optional<std::int32_t> add_node(Builder& builder, const Block& block, Location location, std::int64_t id,
+                                     const Point& point);
 
 /// What is added to element ids of the current scope.
 std::int64_t element_offset(Builder& builder);

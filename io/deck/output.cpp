@@ -1,4 +1,4 @@
-// *OUTPUT *NODE OUTPUT *ELEMENT OUTPUT *CONTACT OUTPUT *ENERGY OUTPUT, the defaults, and the old requests that have no effect.
+// *OUTPUT *NODE OUTPUT *ELEMENT OUTPUT *CONTACT OUTPUT *ENERGY OUTPUT, and what is written when nothing is asked for.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,20 +21,27 @@ const Words contact_fields{"CPRESS", "CSHEAR", "COPEN", "CSLIP", "CNORMF", "CSHE
 const Words contact_histories{"CFN", "CFT", "CM", "CAREA", "XN"};
 const Words energies{"ALLKE", "ALLIE", "ALLSE", "ALLPD", "ALLVD", "ALLAE", "ALLFD", "ALLCW", "ALLWK", "ETOTAL"};
 
-// Variables of Abaqus that its own pre-processor asks for by default and that are not written here: told, but no reason to refuse.
-const Words abaqus_only{"CF",    "COORD", "TF",    "RT",     "UT",     "VT",     "AT",     "NT",      "CM1",    "E",      "EE",     "NE",
-                        "PE",    "PEEQ",  "PEMAG", "PEEQT",  "EVOL",   "IVOL",   "ELSE",   "ELKE",    "ELPD",   "PRESS",  "TRIAX",  "DENSITY",
-                        "STATUS", "SF",   "SE",    "ER",     "EVF",    "SVAVG",  "PEVAVG", "PEEQVAVG", "CNAREA", "CSTATUS", "CFS",
-                        "ALLCD", "ALLDMD", "ALLEE", "ALLJD", "ALLKL", "ALLQB", "ALLSD", "ALLVE", "ALLDC", "ALLMW", "ALLPW", "ALLCCDW",
-                        "ALLCCE", "ALLCCEN", "ALLCCET", "ALLCCSD", "ALLCCSDN", "ALLCCSDT", "ALLHF", "ALLIHE", "DMASS", "EFABRIC"};
+// Variables of Abaqus that its own pre-processor asks for by default and that are not written here: told, but no reason
+// to refuse.
+const Words abaqus_only{
+    "CF",      "COORD",    "TF",       "RT",      "UT",     "VT",    "AT",      "NT",     "CM1",     "E",
+    "EE",      "NE",       "PE",       "PEEQ",    "PEMAG",  "PEEQT", "EVOL",    "IVOL",   "ELSE",    "ELKE",
+    "ELPD",    "PRESS",    "TRIAX",    "DENSITY", "STATUS", "SF",    "SE",      "ER",     "EVF",     "SVAVG",
+    "PEVAVG",  "PEEQVAVG", "CNAREA",   "CSTATUS", "CFS",    "ALLCD", "ALLDMD",  "ALLEE",  "ALLJD",   "ALLKL",
+    "ALLQB",   "ALLSD",    "ALLVE",    "ALLDC",   "ALLMW",  "ALLPW", "ALLCCDW", "ALLCCE", "ALLCCEN", "ALLCCET",
+    "ALLCCSD", "ALLCCSDN", "ALLCCSDT", "ALLHF",   "ALLIHE", "DMASS", "EFABRIC"};
 
 const Words preselected_node{"U", "V", "A", "RF"};
 const Words preselected_element{"S", "LE", "MISES"};
 const Words preselected_contact{"CPRESS", "CSHEAR", "COPEN"};
 
-Step& current(Builder& builder) { return builder.model.steps.back(); }
+Step& current(Builder& builder) {
+  return builder.model.steps.back();
+}
 
-bool contains(const Words& words, const std::string& word) { return std::find(words.begin(), words.end(), word) != words.end(); }
+bool contains(const Words& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
 
 void add(Words& words, const std::string& word) {
   if (!contains(words, word)) words.push_back(word);
@@ -59,8 +66,9 @@ bool set_times(Builder& builder, const Block& block, FieldOutput& output) {
     const auto found = builder.time_points.find(block.value("TIME POINTS"));
     if (found == builder.time_points.end()) {
       if (!builder.is_poisoned(block.value("TIME POINTS"))) {
-        builder.error(block, block.location, fmt::format("time points {} are not defined; define them under *TIME POINTS",
-                                                         block.value("TIME POINTS")));
+        builder.error(
+            block, block.location,
+            fmt::format("time points {} are not defined; define them under *TIME POINTS", block.value("TIME POINTS")));
       }
       return false;
     }
@@ -70,7 +78,8 @@ bool set_times(Builder& builder, const Block& block, FieldOutput& output) {
     builder.error(block, block.location, "give one of FREQUENCY, NUMBER INTERVAL, TIME INTERVAL and TIME POINTS");
     return false;
   }
-  const bool negative = output.frequency.value_or(1) < 0 || output.number_interval.value_or(1) < 1 || output.time_interval.value_or(1.0) <= 0.0;
+  const bool negative = output.frequency.value_or(1) < 0 || output.number_interval.value_or(1) < 1 ||
+                        output.time_interval.value_or(1.0) <= 0.0;
   if (negative) builder.error(block, block.location, "the interval must be positive; correct it");
   return !negative;
 }
@@ -101,7 +110,8 @@ void begin_history(Builder& builder, const Block& block) {
   builder.draft.history_replaced = true;
   for (const char* parameter : {"NUMBER INTERVAL", "TIME POINTS", "PRECISION"}) {
     if (block.has(parameter)) {
-      return builder.error(block, block.location, fmt::format("{} is not supported for history; use FREQUENCY or TIME INTERVAL", parameter));
+      return builder.error(block, block.location,
+                           fmt::format("{} is not supported for history; use FREQUENCY or TIME INTERVAL", parameter));
     }
   }
   FieldOutput times;
@@ -125,7 +135,8 @@ void begin_history(Builder& builder, const Block& block) {
 
 void read_output(Builder& builder, const Block& block) {
   builder.draft.output = StepDraft::Output::none;
-  if (block.has("FIELD") == block.has("HISTORY")) return builder.error(block, block.location, "give either FIELD or HISTORY");
+  if (block.has("FIELD") == block.has("HISTORY"))
+    return builder.error(block, block.location, "give either FIELD or HISTORY");
   block.has("FIELD") ? begin_field(builder, block) : begin_history(builder, block);
 }
 
@@ -144,21 +155,26 @@ void unknown_variable(Builder& builder, const Block& block, Row& row, const std:
   if (contains(abaqus_only, variable)) {
     return builder.warning(block, row.location(), fmt::format("variable {} is not written by Balocco", variable));
   }
-  row.error(fmt::format("variable {} is unknown or not supported{}; supported: {}", variable, did_you_mean(variable, known), join(known)));
+  row.error(fmt::format("variable {} is unknown or not supported{}; supported: {}", variable,
+                        did_you_mean(variable, known), join(known)));
 }
 
-bool is_preselect(const Block& block) { return block.value("VARIABLE") == "PRESELECT" || block.value("VARIABLE") == "ALL"; }
+bool is_preselect(const Block& block) {
+  return block.value("VARIABLE") == "PRESELECT" || block.value("VARIABLE") == "ALL";
+}
 
 /// U or U1..U3 of a vector variable.
 bool is_node_history(const std::string& variable) {
   if (contains(node_vectors, variable)) return true;
-  return variable.size() > 1 && variable.back() >= '1' && variable.back() <= '3' && contains(node_vectors, variable.substr(0, variable.size() - 1));
+  return variable.size() > 1 && variable.back() >= '1' && variable.back() <= '3' &&
+         contains(node_vectors, variable.substr(0, variable.size() - 1));
 }
 
 void note_whole_model(Builder& builder, const Block& block, const char* parameter) {
   if (block.has(parameter)) {
-    builder.warning(block, block.location, fmt::format("{}={}: field output is always written for the whole model", parameter,
-                                                       block.value(parameter)));
+    builder.warning(
+        block, block.location,
+        fmt::format("{}={}: field output is always written for the whole model", parameter, block.value(parameter)));
   }
 }
 
@@ -166,7 +182,8 @@ void read_node_field(Builder& builder, const Block& block) {
   auto& output = current(builder).field_outputs.back();
   note_whole_model(builder, block, "NSET");
   if (is_preselect(block)) {
-    for (const auto& variable : block.value("VARIABLE") == "ALL" ? node_vectors : preselected_node) add(output.node_variables, variable);
+    for (const auto& variable : block.value("VARIABLE") == "ALL" ? node_vectors : preselected_node)
+      add(output.node_variables, variable);
   }
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     if (!contains(node_vectors, variable)) return unknown_variable(builder, block, row, variable, node_vectors);
@@ -239,8 +256,10 @@ void read_element_output(Builder& builder, const Block& block) {
 void read_contact_history(Builder& builder, const Block& block) {
   auto& output = current(builder).history_outputs.back();
   std::int32_t slave = -1, master = -1;
-  if (block.has("SLAVE")) slave = builder.require(builder.surfaces, block.value("SLAVE"), block, block.location).value_or(-2);
-  if (block.has("MASTER")) master = builder.require(builder.surfaces, block.value("MASTER"), block, block.location).value_or(-2);
+  if (block.has("SLAVE"))
+    slave = builder.require(builder.surfaces, block.value("SLAVE"), block, block.location).value_or(-2);
+  if (block.has("MASTER"))
+    master = builder.require(builder.surfaces, block.value("MASTER"), block, block.location).value_or(-2);
   if (slave == -2 || master == -2) return;
   const auto in_set = [&](std::int32_t pair) {
     const auto set = builder.contact_pair_sets.find(block.value("CPSET"));
@@ -250,13 +269,16 @@ void read_contact_history(Builder& builder, const Block& block) {
   for (std::size_t pair = 0; pair < builder.model.contact_pairs.size(); ++pair) {
     const auto& candidate = builder.model.contact_pairs[pair];
     const auto row = static_cast<std::int32_t>(pair);
-    if ((slave >= 0 && candidate.slave != slave) || (master >= 0 && candidate.master != master) || !in_set(row)) continue;
+    if ((slave >= 0 && candidate.slave != slave) || (master >= 0 && candidate.master != master) || !in_set(row))
+      continue;
     any = true;
     if (std::find(output.contact_pairs.begin(), output.contact_pairs.end(), row) == output.contact_pairs.end()) {
       output.contact_pairs.push_back(row);
     }
   }
-  if (!any && !builder.draft.faulty) builder.error(block, block.location, "there is no such contact pair; declare it before the step or remove the request");
+  if (!any && !builder.draft.faulty)
+    builder.error(block, block.location,
+                  "there is no such contact pair; declare it before the step or remove the request");
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     if (!contains(contact_histories, variable)) unknown_variable(builder, block, row, variable, contact_histories);
   });
@@ -269,7 +291,8 @@ void read_contact_output(Builder& builder, const Block& block) {
   note_whole_model(builder, block, "SLAVE");
   note_whole_model(builder, block, "MASTER");
   if (is_preselect(block)) {
-    for (const auto& variable : block.value("VARIABLE") == "ALL" ? contact_fields : preselected_contact) add(output.contact_variables, variable);
+    for (const auto& variable : block.value("VARIABLE") == "ALL" ? contact_fields : preselected_contact)
+      add(output.contact_variables, variable);
   }
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     // CSTRESS and CDISP are Abaqus's names for the groups.
@@ -282,7 +305,8 @@ void read_contact_output(Builder& builder, const Block& block) {
 }
 
 void read_energy_output(Builder& builder, const Block& block) {
-  if (builder.draft.output == StepDraft::Output::field) return builder.error(block, block.location, "it belongs under *OUTPUT, HISTORY; move it there");
+  if (builder.draft.output == StepDraft::Output::field)
+    return builder.error(block, block.location, "it belongs under *OUTPUT, HISTORY; move it there");
   if (builder.draft.output != StepDraft::Output::history) return;
   auto& output = current(builder).history_outputs.back();
   if (is_preselect(block) || block.lines.empty()) output.energies = energies;
@@ -298,7 +322,13 @@ std::vector<std::unique_ptr<ElementGroup>> sample_groups(const Model& model) {
   for (std::size_t t = 0; t < model.elements.size(); ++t) {
     const auto& table = model.elements[t];
     if (table.type->make_group == nullptr || table.id.empty() || table.section[0] < 0) continue;
-    GroupInput input{model, static_cast<std::int32_t>(t), table.section[0], {0}, 0, {}, static_cast<std::int32_t>(model.nodes.size())};
+    GroupInput input{model,
+                     static_cast<std::int32_t>(t),
+                     table.section[0],
+                     {0},
+                     0,
+                     {},
+                     static_cast<std::int32_t>(model.nodes.size())};
     input.connectivity.assign(table.connectivity.begin(), table.connectivity.begin() + table.type->nodes);
     groups.push_back(table.type->make_group(input));
   }
@@ -322,31 +352,32 @@ void default_times(Step& step) {
   }
 }
 
-const RegisterKeyword output{{"OUTPUT", Phase::history, Place::step,
-                              {flag("FIELD"), flag("HISTORY"), integer("FREQUENCY"), integer("NUMBER INTERVAL"), real("TIME INTERVAL"),
-                               name("TIME POINTS"), choice("VARIABLE", {"PRESELECT", "ALL"}), choice("OP", {"NEW", "ADD"}),
-                               choice("PRECISION", {"SINGLE", "DOUBLE"}), choice("TIME MARKS", {"NO"})},
-                              read_output}};
+const RegisterKeyword output{
+    {"OUTPUT",
+     Phase::history,
+     Place::step,
+     {flag("FIELD"), flag("HISTORY"), integer("FREQUENCY"), integer("NUMBER INTERVAL"), real("TIME INTERVAL"),
+      name("TIME POINTS"), choice("VARIABLE", {"PRESELECT", "ALL"}), choice("OP", {"NEW", "ADD"}),
+      choice("PRECISION", {"SINGLE", "DOUBLE"}), choice("TIME MARKS", {"NO"})},
+     read_output}};
 const ParameterRule variable = choice("VARIABLE", {"PRESELECT", "ALL"});
-const RegisterKeyword node_output{{"NODE OUTPUT", Phase::history, Place::step, {name("NSET"), variable}, read_node_output, "OUTPUT"}};
-const RegisterKeyword element_output{{"ELEMENT OUTPUT", Phase::history, Place::step,
-                                      {name("ELSET"), variable, choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}),
-                                       choice("DIRECTIONS", {"YES"})},
-                                      read_element_output, "OUTPUT"}};
-const RegisterKeyword contact_output{{"CONTACT OUTPUT", Phase::history, Place::step, {name("SLAVE"), name("MASTER"), name("CPSET"), variable},
-                                      read_contact_output, "OUTPUT"}};
-const RegisterKeyword energy_output{{"ENERGY OUTPUT", Phase::history, Place::step, {variable}, read_energy_output, "OUTPUT"}};
-
-/// Requests for printed tables and the old results file: there is no such file here.
-KeywordRule old_request(const char* keyword) {
-  return {.keyword = keyword, .place = Place::anywhere, .warning = "asks for a file that Balocco does not write; results go to the HDF5 "
-          "file: use *OUTPUT", .any_parameter = true};
-}
-
-const RegisterKeyword file_format{old_request("FILE FORMAT")}, node_print{old_request("NODE PRINT")}, el_print{old_request("EL PRINT")},
-    node_file{old_request("NODE FILE")}, el_file{old_request("EL FILE")}, monitor{old_request("MONITOR")},
-    contact_print{old_request("CONTACT PRINT")}, contact_file{old_request("CONTACT FILE")}, energy_print{old_request("ENERGY PRINT")},
-    energy_file{old_request("ENERGY FILE")}, section_print{old_request("SECTION PRINT")};
+const RegisterKeyword node_output{
+    {"NODE OUTPUT", Phase::history, Place::step, {name("NSET"), variable}, read_node_output, "OUTPUT"}};
+const RegisterKeyword element_output{
+    {"ELEMENT OUTPUT",
+     Phase::history,
+     Place::step,
+     {name("ELSET"), variable, choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}), choice("DIRECTIONS", {"YES"})},
+     read_element_output,
+     "OUTPUT"}};
+const RegisterKeyword contact_output{{"CONTACT OUTPUT",
+                                      Phase::history,
+                                      Place::step,
+                                      {name("SLAVE"), name("MASTER"), name("CPSET"), variable},
+                                      read_contact_output,
+                                      "OUTPUT"}};
+const RegisterKeyword energy_output{
+    {"ENERGY OUTPUT", Phase::history, Place::step, {variable}, read_energy_output, "OUTPUT"}};
 
 }  // namespace
 
@@ -354,20 +385,25 @@ void finish_output(Builder& builder) {
   Model& model = builder.model;
   const auto groups = sample_groups(model);
   const auto exists = [&](const std::string& variable) {
-    return std::any_of(groups.begin(), groups.end(), [&](const auto& group) { return group->output_components(variable) > 0; });
+    return std::any_of(groups.begin(), groups.end(),
+                       [&](const auto& group) { return group->output_components(variable) > 0; });
   };
   for (const auto& [variable, location] : builder.asked_element_variables) {
     if (exists(variable)) continue;
     if (contains(abaqus_only, variable)) {
-      builder.diagnostics.warning(location, "ELEMENT OUTPUT", fmt::format("variable {} does not exist in this model and is not written", variable));
+      builder.diagnostics.warning(location, "ELEMENT OUTPUT",
+                                  fmt::format("variable {} does not exist in this model and is not written", variable));
     } else {
-      builder.diagnostics.error(location, "ELEMENT OUTPUT", fmt::format("no element of the model has the variable {}; remove it or "
-                                                                        "correct the name (S, LE, MISES, SENER ...)", variable));
+      builder.diagnostics.error(location, "ELEMENT OUTPUT",
+                                fmt::format("no element of the model has the variable {}; remove it or "
+                                            "correct the name (S, LE, MISES, SENER ...)",
+                                            variable));
     }
   }
   for (std::size_t row = 0; row < model.steps.size(); ++row) {
     Step& step = model.steps[row];
-    if (step.field_outputs.empty() && !builder.without_field.contains(row)) step.field_outputs.push_back(preselected_field());
+    if (step.field_outputs.empty() && !builder.without_field.contains(row))
+      step.field_outputs.push_back(preselected_field());
     if (step.history_outputs.empty() && !builder.without_history.contains(row)) {
       step.history_outputs.emplace_back();
       step.history_outputs.back().energies = energies;

@@ -14,15 +14,27 @@ namespace {
 using Vector2 = std::array<double, 2>;
 using Kind = ProfileSegment::Kind;
 
-Vector2 operator-(const Vector2& a, const Vector2& b) { return {a[0] - b[0], a[1] - b[1]}; }
+Vector2 operator-(const Vector2& a, const Vector2& b) {
+  return {a[0] - b[0], a[1] - b[1]};
+}
 Vector2 along(const Vector2& from, const Vector2& direction, double s) {
   return {from[0] + s * direction[0], from[1] + s * direction[1]};
 }
-double dot2(const Vector2& a, const Vector2& b) { return a[0] * b[0] + a[1] * b[1]; }
-double cross2(const Vector2& a, const Vector2& b) { return a[0] * b[1] - a[1] * b[0]; }
-double length(const Vector2& a) { return std::hypot(a[0], a[1]); }
-Vector2 left_of(const Vector2& a) { return {-a[1], a[0]}; }
-Vector2 unit(const Vector2& a) { return {a[0] / length(a), a[1] / length(a)}; }
+double dot2(const Vector2& a, const Vector2& b) {
+  return a[0] * b[0] + a[1] * b[1];
+}
+double cross2(const Vector2& a, const Vector2& b) {
+  return a[0] * b[1] - a[1] * b[0];
+}
+double length(const Vector2& a) {
+  return std::hypot(a[0], a[1]);
+}
+Vector2 left_of(const Vector2& a) {
+  return {-a[1], a[0]};
+}
+Vector2 unit(const Vector2& a) {
+  return {a[0] / length(a), a[1] / length(a)};
+}
 
 /// Unit direction of travel at a point of a segment.
 Vector2 tangent(const ProfileSegment& segment, const Vector2& at) {
@@ -52,7 +64,8 @@ std::vector<Vector2> line_and_circle(const Offset& line, const Offset& circle) {
   const double s = dot2(to_centre, line.direction), distance = cross2(line.direction, to_centre);
   const double half = circle.radius * circle.radius - distance * distance;
   if (half < 0.0) return {};
-  return {along(line.point, line.direction, s - std::sqrt(half)), along(line.point, line.direction, s + std::sqrt(half))};
+  return {along(line.point, line.direction, s - std::sqrt(half)),
+          along(line.point, line.direction, s + std::sqrt(half))};
 }
 
 std::vector<Vector2> circle_and_circle(const Offset& a, const Offset& b) {
@@ -104,7 +117,8 @@ bool inside(const ProfileSegment& segment, const Vector2& point) {
   return travelled(segment, point) <= travelled(segment, segment.end);
 }
 
-std::optional<ProfileSegment> fillet(const ProfileSegment& first, const ProfileSegment& second, double radius, bool left) {
+std::optional<ProfileSegment> fillet(const ProfileSegment& first, const ProfileSegment& second, double radius,
+                                     bool left) {
   const double offset = left ? radius : -radius;
   const Offset a = offset_of(first, offset), b = offset_of(second, offset);
   if ((!a.line && a.radius <= 0.0) || (!b.line && b.radius <= 0.0)) return std::nullopt;
@@ -178,7 +192,8 @@ std::vector<ProfileSegment> round_corners(const std::vector<ProfileSegment>& pro
     }
     const auto arc = fillet(last, next, radius, turn > 0.0);
     if (!arc) {
-      throw std::invalid_argument(fmt::format("the corner at ({}, {}) has no room for it", next.start[0], next.start[1]));
+      throw std::invalid_argument(
+          fmt::format("the corner at ({}, {}) has no room for it", next.start[0], next.start[1]));
     }
     last.end = arc->start;
     result.push_back(*arc);

@@ -1,4 +1,5 @@
-// Profiles of analytical rigid surfaces: START, LINE, CIRCL lines and the arcs that FILLET RADIUS puts into their corners.
+// Profiles of analytical rigid surfaces: START, LINE, CIRCL lines and the arcs that FILLET RADIUS puts into their
+// corners.
 #pragma once
 
 #include <span>
@@ -11,7 +12,8 @@ namespace balocco::deck {
 /// Reads START, LINE and CIRCL lines. Returns an empty profile if something was wrong (told).
 std::vector<ProfileSegment> read_profile(Builder& builder, const Block& block, std::span<const DataLine> lines);
 
-/// Replaces corners by tangent arcs of that radius. Throws std::invalid_argument saying which corner has no room for it.
+/// Replaces corners by tangent arcs of that radius. Throws std::invalid_argument saying which corner has no room for
+/// it.
 std::vector<ProfileSegment> round_corners(const std::vector<ProfileSegment>& profile, double radius);
 
 }  // namespace balocco::deck

@@ -38,8 +38,8 @@ std::string trouble_with_value(const ParameterRule& rule, const Parameter& param
   if (rule.kind == Kind::choice || rule.kind == Kind::optional_choice) {
     const auto same = [&](const std::string& value) { return squeeze(value) == squeeze(parameter.value); };
     if (std::none_of(rule.choices.begin(), rule.choices.end(), same)) {
-      return fmt::format("{}={} is not supported{}{}", rule.name, parameter.raw, did_you_mean(parameter.value, rule.choices),
-                         "; allowed: " + join(rule.choices));
+      return fmt::format("{}={} is not supported{}{}", rule.name, parameter.raw,
+                         did_you_mean(parameter.value, rule.choices), "; allowed: " + join(rule.choices));
     }
   }
   return "";
@@ -47,15 +47,27 @@ std::string trouble_with_value(const ParameterRule& rule, const Parameter& param
 
 }  // namespace
 
-ParameterRule flag(std::string name) { return {Kind::flag, std::move(name), {}, false}; }
-ParameterRule name(std::string name) { return {Kind::name, std::move(name), {}, false}; }
-ParameterRule text(std::string name) { return {Kind::text, std::move(name), {}, false}; }
-ParameterRule real(std::string name) { return {Kind::real, std::move(name), {}, false}; }
-ParameterRule integer(std::string name) { return {Kind::integer, std::move(name), {}, false}; }
+ParameterRule flag(std::string name) {
+  return {Kind::flag, std::move(name), {}, false};
+}
+ParameterRule name(std::string name) {
+  return {Kind::name, std::move(name), {}, false};
+}
+ParameterRule text(std::string name) {
+  return {Kind::text, std::move(name), {}, false};
+}
+ParameterRule real(std::string name) {
+  return {Kind::real, std::move(name), {}, false};
+}
+ParameterRule integer(std::string name) {
+  return {Kind::integer, std::move(name), {}, false};
+}
 ParameterRule choice(std::string name, std::vector<std::string> choices) {
   return {Kind::choice, std::move(name), std::move(choices), false};
 }
-ParameterRule optional_real(std::string name) { return {Kind::optional_real, std::move(name), {}, false}; }
+ParameterRule optional_real(std::string name) {
+  return {Kind::optional_real, std::move(name), {}, false};
+}
 ParameterRule optional_choice(std::string name, std::vector<std::string> choices) {
   return {Kind::optional_choice, std::move(name), std::move(choices), false};
 }

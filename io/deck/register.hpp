@@ -1,5 +1,5 @@
-// The register of keywords. Adding one = one handler and one `RegisterKeyword` in the file of its group; what is not registered
-// is refused, and so is every parameter that a keyword does not list.
+// The register of keywords. Adding one = one handler and one `RegisterKeyword` in the file of its group; what is not
+// registered is refused, and so is every parameter that a keyword does not list.
 #pragma once
 
 #include <string>
@@ -12,7 +12,8 @@ namespace balocco::deck {
 
 class Builder;
 
-/// Handlers run phase by phase, and in deck order within a phase, so that a deck may refer to what it defines further down.
+/// Handlers run phase by phase, and in deck order within a phase, so that a deck may refer to what it defines further
+/// down.
 enum class Phase { definitions, nodes, elements, surfaces, sections, constraints, history };
 
 enum class Place { model, step, anywhere };
@@ -39,11 +40,11 @@ struct KeywordRule {
   std::string keyword;  // as documented, with blanks
   Phase phase = Phase::definitions;
   Place place = Place::model;
-  std::vector<ParameterRule> parameters;
+  std::vector<ParameterRule> parameters = {};
   void (*handler)(Builder&, const Block&) = nullptr;  // null: accepted, and has nothing to say to a Model
-  std::string parent = "";         // an option that only makes sense under this keyword
-  std::string warning = "";        // told where the keyword is used
-  bool any_parameter = false;      // old output requests: nothing of them is looked at
+  std::string parent = "";                            // an option that only makes sense under this keyword
+  std::string warning = "";                           // told where the keyword is used
+  bool any_parameter = false;                         // old output requests: nothing of them is looked at
 };
 
 struct RegisterKeyword {

@@ -43,14 +43,14 @@ class Scheduler {
   std::vector<std::string> ignored_;
   std::vector<Task> tasks_;
   std::map<std::string, std::vector<const Block*>> parts_;
-  const Block* part_ = nullptr;      // *PART, *ASSEMBLY, *INSTANCE, *STEP that is open
+  const Block* part_ = nullptr;  // *PART, *ASSEMBLY, *INSTANCE, *STEP that is open
   const Block* assembly_ = nullptr;
   const Block* instance_ = nullptr;
   const Block* step_ = nullptr;
   Scope* scope_ = &builder_.scopes.front();
-  std::string parent_;               // keyword whose options may follow
+  std::string parent_;  // keyword whose options may follow
   bool parent_refused_ = false;
-  bool step_refused_ = false;        // the *STEP line itself was refused: nothing in the step is run
+  bool step_refused_ = false;  // the *STEP line itself was refused: nothing in the step is run
 };
 
 bool Scheduler::is_structure(const Block& block) const {
@@ -79,13 +79,15 @@ void Scheduler::take_structure(const Block& block) {
   if (!check_parameters(rule, block, builder_.diagnostics)) builder_.poison(block);
   const auto open = [&](const Block*& mark) {
     if (mark != nullptr) {
-      builder_.error(block, block.location, fmt::format("the *{0} of line {1} has no *END {0} yet; close it first", rule.keyword,
-                                                        mark->location.line));
+      builder_.error(
+          block, block.location,
+          fmt::format("the *{0} of line {1} has no *END {0} yet; close it first", rule.keyword, mark->location.line));
     }
     mark = &block;
   };
   const auto close = [&](const Block*& mark) {
-    if (mark == nullptr) builder_.error(block, block.location, "there is nothing to end; remove this line or add its beginning");
+    if (mark == nullptr)
+      builder_.error(block, block.location, "there is nothing to end; remove this line or add its beginning");
     mark = nullptr;
   };
   if (block.keyword == "PART") open(part_);
@@ -120,8 +122,9 @@ void Scheduler::begin_instance(const Block& block) {
     std::vector<std::string> names;
     for (const auto& [name, blocks] : parts_) names.push_back(name);
     if (block.has("PART")) {
-      builder_.error(block, block.location, fmt::format("part {} is not defined{}", block.value("PART"),
-                                                        did_you_mean(block.value("PART"), names)));
+      builder_.error(
+          block, block.location,
+          fmt::format("part {} is not defined{}", block.value("PART"), did_you_mean(block.value("PART"), names)));
     }
     return;
   }
@@ -200,8 +203,8 @@ void Scheduler::begin_or_end_step(const Block& block) {
     return;
   }
   if (step_ != nullptr) {
-    builder_.error(*step_, step_->location, fmt::format("*END STEP is missing before the *STEP of line {}; add it",
-                                                        block.location.line));
+    builder_.error(*step_, step_->location,
+                   fmt::format("*END STEP is missing before the *STEP of line {}; add it", block.location.line));
   }
   step_ = &block;
 }

@@ -14,11 +14,16 @@ namespace {
 
 const char* describe(Section::Kind kind) {
   switch (kind) {
-    case Section::Kind::solid: return "*SOLID SECTION";
-    case Section::Kind::membrane: return "*MEMBRANE SECTION";
-    case Section::Kind::truss: return "*SOLID SECTION with an area";
-    case Section::Kind::mass: return "*MASS";
-    case Section::Kind::rotary_inertia: return "*ROTARY INERTIA";
+    case Section::Kind::solid:
+      return "*SOLID SECTION";
+    case Section::Kind::membrane:
+      return "*MEMBRANE SECTION";
+    case Section::Kind::truss:
+      return "*SOLID SECTION with an area";
+    case Section::Kind::mass:
+      return "*MASS";
+    case Section::Kind::rotary_inertia:
+      return "*ROTARY INERTIA";
   }
   return "";
 }
@@ -30,12 +35,15 @@ void assign(Builder& builder, const Block& block, Section section, const std::ve
     ElementTable& table = builder.model.elements[element.table];
     std::int32_t& owner = table.section[element.row];
     if (table.type->section != section.kind) {
-      return builder.error(block, block.location, fmt::format("element {} of type {} cannot have this section; it needs {}",
-                                                              table.id[element.row], table.type->name, describe(table.type->section)));
+      return builder.error(block, block.location,
+                           fmt::format("element {} of type {} cannot have this section; it needs {}",
+                                       table.id[element.row], table.type->name, describe(table.type->section)));
     }
     if (owner >= 0) {
-      return builder.error(block, block.location, fmt::format("element {} already has the section of {}; take it out of one of the sets",
-                                                              table.id[element.row], builder.model.where(builder.model.sections[owner].location)));
+      return builder.error(
+          block, block.location,
+          fmt::format("element {} already has the section of {}; take it out of one of the sets", table.id[element.row],
+                      builder.model.where(builder.model.sections[owner].location)));
     }
     owner = row;
   }
@@ -48,7 +56,8 @@ std::optional<Section> begin(Builder& builder, const Block& block, std::vector<E
   section.location = block.location;
   const std::string set = block.value("ELSET");
   bool good = builder.elements_of(set, block, block.location, elements);
-  if (const auto row = builder.find(builder.element_sets, set)) section.element_set = builder.model.element_sets[*row].name;
+  if (const auto row = builder.find(builder.element_sets, set))
+    section.element_set = builder.model.element_sets[*row].name;
   if (block.has("MATERIAL")) {
     const auto material = builder.require(builder.materials, block.value("MATERIAL"), block, block.location);
     section.material = material.value_or(-1);
@@ -64,7 +73,8 @@ std::optional<Section> begin(Builder& builder, const Block& block, std::vector<E
     const auto controls = builder.section_controls.find(name);
     if (controls == builder.section_controls.end()) {
       if (!builder.is_poisoned(name)) {
-        builder.error(block, block.location, fmt::format("section controls {} are not defined; define them under *SECTION CONTROLS", name));
+        builder.error(block, block.location,
+                      fmt::format("section controls {} are not defined; define them under *SECTION CONTROLS", name));
       }
       good = false;
     } else {
@@ -116,7 +126,8 @@ bool read_plies(Builder& builder, const Block& block, Section& section) {
     ply.thickness = row.real(0, "thickness of the ply");
     ply.angle = row.real_or(3, 0.0, "angle in degrees") * std::numbers::pi / 180.0;
     row.at_most(4);
-    if (row.ok() && !(ply.thickness > 0.0)) row.error(fmt::format("thickness {} must be positive; correct it", ply.thickness));
+    if (row.ok() && !(ply.thickness > 0.0))
+      row.error(fmt::format("thickness {} must be positive; correct it", ply.thickness));
     if (row.ok() && row.has(1)) row.error("a membrane ply has no integration points; leave field 2 empty");
     if (!row.ok()) return false;
     const auto material = builder.require(builder.materials, row.name(2), block, line.location);
@@ -125,7 +136,8 @@ bool read_plies(Builder& builder, const Block& block, Section& section) {
     section.thickness += ply.thickness;
     section.plies.push_back(ply);
   }
-  if (section.plies.empty()) builder.error(block, block.location, "it has no plies; add lines thickness, , material, angle");
+  if (section.plies.empty())
+    builder.error(block, block.location, "it has no plies; add lines thickness, , material, angle");
   return !section.plies.empty();
 }
 
@@ -168,10 +180,12 @@ void read_rotary_inertia(Builder& builder, const Block& block) {
   auto section = begin(builder, block, elements);
   if (!section) return;
   section->kind = Section::Kind::rotary_inertia;
-  if (block.lines.empty()) return builder.error(block, block.location, "the inertia is missing; add I11, I22, I33, I12, I13, I23");
+  if (block.lines.empty())
+    return builder.error(block, block.location, "the inertia is missing; add I11, I22, I33, I12, I13, I23");
   Row row(builder, block, block.lines[0]);
   for (int i = 0; i < 6; ++i) {
-    section->inertia[i] = i < 3 ? row.real(i, "principal moment of inertia") : row.real_or(i, 0.0, "product of inertia");
+    section->inertia[i] =
+        i < 3 ? row.real(i, "principal moment of inertia") : row.real_or(i, 0.0, "product of inertia");
     if (row.ok() && i < 3 && section->inertia[i] < 0.0) row.error("a moment of inertia is negative; correct it");
   }
   row.at_most(6);
@@ -194,22 +208,29 @@ void read_section_controls(Builder& builder, const Block& block) {
     if (row.ok() && !(controls.hourglass_scale > 0.0)) row.error("the scale must be positive; correct it");
   }
   if (!builder.section_controls.emplace(block.value("NAME"), controls).second) {
-    builder.error(block, block.location, fmt::format("section controls {} are defined twice; rename one", block.value("NAME")));
+    builder.error(block, block.location,
+                  fmt::format("section controls {} are defined twice; rename one", block.value("NAME")));
   }
 }
 
-const RegisterKeyword solid{{"SOLID SECTION", Phase::sections, Place::model,
+const RegisterKeyword solid{{"SOLID SECTION",
+                             Phase::sections,
+                             Place::model,
                              {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS")},
                              read_solid_section}};
-const RegisterKeyword membrane{{"MEMBRANE SECTION", Phase::sections, Place::model,
-                                {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"),
-                                 flag("COMPOSITE")},
-                                read_membrane_section}};
+const RegisterKeyword membrane{
+    {"MEMBRANE SECTION",
+     Phase::sections,
+     Place::model,
+     {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"), flag("COMPOSITE")},
+     read_membrane_section}};
 const RegisterKeyword mass{{"MASS", Phase::sections, Place::model, {required(name("ELSET"))}, read_mass}};
-const RegisterKeyword rotary{{"ROTARY INERTIA", Phase::sections, Place::model,
-                              {required(name("ELSET"))}, read_rotary_inertia}};
+const RegisterKeyword rotary{
+    {"ROTARY INERTIA", Phase::sections, Place::model, {required(name("ELSET"))}, read_rotary_inertia}};
 // SECOND ORDER ACCURACY chooses nothing here: the kinematics are exact either way.
-const RegisterKeyword controls{{"SECTION CONTROLS", Phase::definitions, Place::model,
+const RegisterKeyword controls{{"SECTION CONTROLS",
+                                Phase::definitions,
+                                Place::model,
                                 {required(name("NAME")), choice("HOURGLASS", {"ENHANCED", "STIFFNESS"}),
                                  choice("SECOND ORDER ACCURACY", {"YES", "NO"})},
                                 read_section_controls}};

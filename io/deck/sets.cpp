@@ -16,12 +16,13 @@ struct Range {
 
 std::optional<Range> range_of(Builder& builder, const Block& block, const DataLine& line) {
   Row row(builder, block, line);
-  const Range range{row.integer(0, "first id"), row.integer_or(1, row.has(0) ? row.integer(0, "first id") : 0, "last id"),
+  const Range range{row.integer(0, "first id"),
+                    row.integer_or(1, row.has(0) ? row.integer(0, "first id") : 0, "last id"),
                     row.integer_or(2, 1, "increment")};
   row.at_most(3);
   if (row.ok() && (range.increment <= 0 || range.last < range.first)) {
-    row.error(fmt::format("{}, {}, {} generates nothing; give first <= last and a positive increment", range.first, range.last,
-                          range.increment));
+    row.error(fmt::format("{}, {}, {} generates nothing; give first <= last and a positive increment", range.first,
+                          range.last, range.increment));
   }
   return row.ok() ? std::optional(range) : std::nullopt;
 }
@@ -40,8 +41,9 @@ void in_instance(Builder& builder, const Block& block, const Use& use) {
     return;
   }
   if (!builder.is_poisoned(block.value("INSTANCE"))) {
-    builder.error(block, block.location, fmt::format("instance {} is not defined; correct the name or add *INSTANCE",
-                                                     block.value("INSTANCE")));
+    builder.error(
+        block, block.location,
+        fmt::format("instance {} is not defined; correct the name or add *INSTANCE", block.value("INSTANCE")));
   }
 }
 
@@ -142,13 +144,18 @@ void read_element_set(Builder& builder, const Block& block) {
   for (const auto element : elements) builder.add_to_element_set(set, element);
 }
 
-const RegisterKeyword nset{{"NSET", Phase::nodes, Place::anywhere,
-                            {required(name("NSET")), flag("GENERATE"), flag("UNSORTED"), flag("INTERNAL"), name("INSTANCE"),
-                             name("ELSET")},
-                            read_node_set}};
-const RegisterKeyword elset{{"ELSET", Phase::elements, Place::anywhere,
-                             {required(name("ELSET")), flag("GENERATE"), flag("UNSORTED"), flag("INTERNAL"), name("INSTANCE")},
-                             read_element_set}};
+const RegisterKeyword nset{
+    {"NSET",
+     Phase::nodes,
+     Place::anywhere,
+     {required(name("NSET")), flag("GENERATE"), flag("UNSORTED"), flag("INTERNAL"), name("INSTANCE"), name("ELSET")},
+     read_node_set}};
+const RegisterKeyword elset{
+    {"ELSET",
+     Phase::elements,
+     Place::anywhere,
+     {required(name("ELSET")), flag("GENERATE"), flag("UNSORTED"), flag("INTERNAL"), name("INSTANCE")},
+     read_element_set}};
 
 }  // namespace
 

@@ -17,7 +17,7 @@ struct StepDraft {
   bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false;  // OP=NEW seen
   std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary
   std::unordered_map<std::int64_t, std::size_t> concentrated_of;  // node * 6 + dof -> row of Step::concentrated_loads
-  bool field_replaced = false, history_replaced = false;          // an *OUTPUT of this step took the place of earlier ones
+  bool field_replaced = false, history_replaced = false;  // an *OUTPUT of this step took the place of earlier ones
   enum class Output { none, field, history } output = Output::none;  // what the latest *OUTPUT asked for
 
   /// True if a load was said (again) in this step.

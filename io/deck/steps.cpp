@@ -12,7 +12,9 @@ namespace balocco::deck {
 
 namespace {
 
-Step& current(Builder& builder) { return builder.model.steps.back(); }
+Step& current(Builder& builder) {
+  return builder.model.steps.back();
+}
 
 /// Magnitude that a load has reached at the end of a step.
 template <class Load>
@@ -79,7 +81,8 @@ void begin_step(Builder& builder, const Block& block) {
   if (builder.without_history.contains(row - 1)) builder.without_history.insert(row);
   step.name = block.value("NAME", fmt::format("STEP-{}", builder.model.steps.size() + 1));
   for (const auto& other : builder.model.steps) {
-    if (other.name == step.name) builder.error(block, block.location, fmt::format("two steps are named {}; rename one", step.name));
+    if (other.name == step.name)
+      builder.error(block, block.location, fmt::format("two steps are named {}; rename one", step.name));
   }
   if (block.has("NLGEOM")) {
     const bool asked = block.value("NLGEOM", "YES") == "YES";
@@ -89,7 +92,8 @@ void begin_step(Builder& builder, const Block& block) {
     step.static_procedure.nonlinear_geometry = asked;
   }
   step.static_procedure.maximum_increments = block.integer("INC", 100);
-  if (step.static_procedure.maximum_increments < 1) builder.error(block, block.location, "INC must be positive; correct it");
+  if (step.static_procedure.maximum_increments < 1)
+    builder.error(block, block.location, "INC must be positive; correct it");
   if (builder.model.heading.empty() && builder.model.steps.empty() && !block.lines.empty()) {
     builder.model.heading = block.lines[0].text;  // a subheading, as CalculiX decks have it
   }
@@ -131,14 +135,17 @@ void read_static(Builder& builder, const Block& block) {
     }
     if (!row.ok()) return;
   }
-  // Abaqus's defaults: period 1, first increment the period, smallest 1e-5 of the period or the first increment if less.
+  // Abaqus's defaults: period 1, first increment the period, smallest 1e-5 of the period or the first increment if
+  // less.
   procedure.duration = duration > 0.0 ? duration : 1.0;
   procedure.initial_increment = initial > 0.0 ? initial : procedure.duration;
-  procedure.minimum_increment = minimum > 0.0 ? minimum : std::min(procedure.initial_increment, 1e-5 * procedure.duration);
+  procedure.minimum_increment =
+      minimum > 0.0 ? minimum : std::min(procedure.initial_increment, 1e-5 * procedure.duration);
   procedure.maximum_increment = maximum > 0.0 ? maximum : procedure.duration;
   if (procedure.initial_increment > procedure.duration) {
-    builder.error(block, block.lines[0].location, fmt::format("the initial increment {} exceeds the time period {}; make it smaller",
-                                                              procedure.initial_increment, procedure.duration));
+    builder.error(block, block.lines[0].location,
+                  fmt::format("the initial increment {} exceeds the time period {}; make it smaller",
+                              procedure.initial_increment, procedure.duration));
   }
 }
 
@@ -153,19 +160,22 @@ void read_dynamic(Builder& builder, const Block& block) {
   if (!(procedure.scale_factor > 0.0 && procedure.scale_factor <= 1.0)) {
     builder.error(block, block.location, "SCALE FACTOR must lie between 0 and 1; correct it");
   }
-  if (block.lines.empty()) return builder.error(block, block.location, "the time period is missing; add a line: , period");
+  if (block.lines.empty())
+    return builder.error(block, block.location, "the time period is missing; add a line: , period");
   Row row(builder, block, block.lines[0]);
   const double first = row.real_or(0, 0.0, "time increment");
   procedure.duration = row.real(1, "time period");
   row.at_most(2);
-  if (row.ok() && !(procedure.duration > 0.0)) row.error(fmt::format("time period {} must be positive; correct it", procedure.duration));
+  if (row.ok() && !(procedure.duration > 0.0))
+    row.error(fmt::format("time period {} must be positive; correct it", procedure.duration));
   if (!row.ok()) return;
   if (block.has("DIRECT USER CONTROL") || block.has("DIRECT")) {
     if (!(first > 0.0)) return row.error("DIRECT USER CONTROL needs the increment in field 1; add it");
     procedure.fixed_increment = first;
   } else if (row.has(0) && first > 0.0) {
-    builder.warning(block, row.location(), "field 1 (the increment) has a meaning only with DIRECT USER CONTROL; the stable increment is "
-                                           "estimated");
+    builder.warning(block, row.location(),
+                    "field 1 (the increment) has a meaning only with DIRECT USER CONTROL; the stable increment is "
+                    "estimated");
   }
 }
 
@@ -201,16 +211,19 @@ void read_controls(Builder& builder, const Block& block) {
     only_fields(row, {0, 1});
     controls.residual_tolerance = row.real_or(0, controls.residual_tolerance, "residual tolerance");
     controls.correction_tolerance = row.real_or(1, controls.correction_tolerance, "correction tolerance");
-    if (row.ok() && !(controls.residual_tolerance > 0.0 && controls.correction_tolerance > 0.0)) row.error("tolerances must be positive; correct them");
+    if (row.ok() && !(controls.residual_tolerance > 0.0 && controls.correction_tolerance > 0.0))
+      row.error("tolerances must be positive; correct them");
   } else if (parameters == "TIMEINCREMENTATION") {  // I_0, I_R, I_P, I_C: the fourth is the limit of iterations
     only_fields(row, {3});
-    controls.maximum_iterations = static_cast<std::int32_t>(row.integer_or(3, controls.maximum_iterations, "most iterations"));
+    controls.maximum_iterations =
+        static_cast<std::int32_t>(row.integer_or(3, controls.maximum_iterations, "most iterations"));
     if (row.ok() && controls.maximum_iterations < 1) row.error("the number of iterations must be positive; correct it");
   } else {  // N_ls: 0 switches the line search off
     only_fields(row, {0});
     controls.line_search = row.integer_or(0, 0, "most line-search iterations") > 0;
   }
-  if (block.lines.size() > 1) builder.error(block, block.lines[1].location, "further lines of *CONTROLS are not supported; remove them");
+  if (block.lines.size() > 1)
+    builder.error(block, block.lines[1].location, "further lines of *CONTROLS are not supported; remove them");
 }
 
 void read_restart(Builder& builder, const Block& block) {
@@ -221,7 +234,8 @@ void read_restart(Builder& builder, const Block& block) {
   step.checkpoint_frequency.reset();
   step.checkpoint_number_interval.reset();
   const std::int32_t frequency = block.integer("FREQUENCY", 1), intervals = block.integer("NUMBER INTERVAL", 1);
-  if (frequency < 0 || intervals < 0) return builder.error(block, block.location, "FREQUENCY and NUMBER INTERVAL must not be negative; correct it");
+  if (frequency < 0 || intervals < 0)
+    return builder.error(block, block.location, "FREQUENCY and NUMBER INTERVAL must not be negative; correct it");
   if (block.has("NUMBER INTERVAL")) {
     if (intervals > 0) step.checkpoint_number_interval = intervals;
   } else if (frequency > 0) {  // FREQUENCY=0: none
@@ -229,22 +243,33 @@ void read_restart(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword step{{"STEP", Phase::history, Place::model,
-                            {name("NAME"), optional_choice("NLGEOM", {"YES", "NO"}), integer("INC"), choice("UNSYMM", {"YES"})},
-                            begin_step}};
+const RegisterKeyword step{
+    {"STEP",
+     Phase::history,
+     Place::model,
+     {name("NAME"), optional_choice("NLGEOM", {"YES", "NO"}), integer("INC"), choice("UNSYMM", {"YES"})},
+     begin_step}};
 const RegisterKeyword end{{"END STEP", Phase::history, Place::step, {}, end_step}};
-const RegisterKeyword static_analysis{{"STATIC", Phase::history, Place::step, {flag("DIRECT"), optional_real("STABILIZE")}, read_static}};
-const RegisterKeyword dynamic{{"DYNAMIC", Phase::history, Place::step,
-                               {required(flag("EXPLICIT")), flag("DIRECT USER CONTROL"), flag("DIRECT"), flag("ELEMENT BY ELEMENT"),
-                                real("SCALE FACTOR")},
+const RegisterKeyword static_analysis{
+    {"STATIC", Phase::history, Place::step, {flag("DIRECT"), optional_real("STABILIZE")}, read_static}};
+const RegisterKeyword dynamic{{"DYNAMIC",
+                               Phase::history,
+                               Place::step,
+                               {required(flag("EXPLICIT")), flag("DIRECT USER CONTROL"), flag("DIRECT"),
+                                flag("ELEMENT BY ELEMENT"), real("SCALE FACTOR")},
                                read_dynamic}};
 const RegisterKeyword bulk{{"BULK VISCOSITY", Phase::history, Place::step, {}, read_bulk_viscosity}};
-const RegisterKeyword controls{{"CONTROLS", Phase::history, Place::step,
+const RegisterKeyword controls{{"CONTROLS",
+                                Phase::history,
+                                Place::step,
                                 {choice("PARAMETERS", {"FIELD", "TIME INCREMENTATION", "LINE SEARCH"}), flag("RESET")},
                                 read_controls}};
 // OVERLAY is how checkpoints are always kept: the last whole one.
-const RegisterKeyword restart{{"RESTART", Phase::history, Place::step,
-                               {required(flag("WRITE")), integer("FREQUENCY"), integer("NUMBER INTERVAL"), flag("OVERLAY"), choice("TIME MARKS", {"NO"})},
+const RegisterKeyword restart{{"RESTART",
+                               Phase::history,
+                               Place::step,
+                               {required(flag("WRITE")), integer("FREQUENCY"), integer("NUMBER INTERVAL"),
+                                flag("OVERLAY"), choice("TIME MARKS", {"NO"})},
                                read_restart}};
 
 }  // namespace

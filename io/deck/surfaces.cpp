@@ -21,12 +21,15 @@ using FaceKey = std::array<std::int32_t, 4>;
 
 FaceKey key_of(const ElementTable& table, std::int32_t row, const std::vector<int>& face) {
   FaceKey key{-1, -1, -1, -1};
-  for (std::size_t i = 0; i < face.size() && i < key.size(); ++i) key[i] = table.connectivity[row * table.type->nodes + face[i]];
+  for (std::size_t i = 0; i < face.size() && i < key.size(); ++i)
+    key[i] = table.connectivity[row * table.type->nodes + face[i]];
   std::sort(key.begin(), key.end());
   return key;
 }
 
-bool is_solid(const ElementType& type) { return type.section == Section::Kind::solid; }
+bool is_solid(const ElementType& type) {
+  return type.section == Section::Kind::solid;
+}
 
 /// All faces of solid elements in the model, sorted: one that occurs twice is inside the body.
 const std::vector<FaceKey>& solid_faces(Builder& builder) {
@@ -53,7 +56,8 @@ void add_free_faces(Builder& builder, const std::vector<ElementRef>& elements, S
     }
     const auto& all = solid_faces(builder);
     for (std::size_t face = 0; face < table.type->faces.size(); ++face) {
-      const auto [first, last] = std::equal_range(all.begin(), all.end(), key_of(table, element.row, table.type->faces[face]));
+      const auto [first, last] =
+          std::equal_range(all.begin(), all.end(), key_of(table, element.row, table.type->faces[face]));
       if (last - first == 1) surface.faces.push_back({element, static_cast<std::int32_t>(face)});
     }
   }
@@ -73,16 +77,19 @@ void read_element_faces(Builder& builder, const Block& block, Surface& surface) 
       const ElementType& type = *builder.model.elements[element.table].type;
       const int face = face_of_label(type, row.name(1));
       if (face < 0) {
-        row.error(fmt::format("element {} of type {} has no face {}; {}", builder.element_id(element), type.name, row.name(1),
-                              is_solid(type) ? fmt::format("it has S1 to S{}", type.faces.size())
-                              : type.faces.empty() ? "it has no faces" : "it has SPOS and SNEG"));
+        row.error(fmt::format("element {} of type {} has no face {}; {}", builder.element_id(element), type.name,
+                              row.name(1),
+                              is_solid(type)       ? fmt::format("it has S1 to S{}", type.faces.size())
+                              : type.faces.empty() ? "it has no faces"
+                                                   : "it has SPOS and SNEG"));
         break;
       }
       surface.faces.push_back({element, face});
     }
   }
   if (surface.faces.empty() && !builder.mesh_incomplete && !builder.is_poisoned(block.value("NAME"))) {
-    builder.error(block, block.location, "the surface has no faces; name element sets that have free faces, or a face label");
+    builder.error(block, block.location,
+                  "the surface has no faces; name element sets that have free faces, or a face label");
   }
 }
 
@@ -90,7 +97,8 @@ void read_nodes_of_surface(Builder& builder, const Block& block, Surface& surfac
   surface.kind = Surface::Kind::nodes;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
-    if (row.has(1)) row.error("areas of node-based surfaces are not supported; they are found from the mesh: remove field 2");
+    if (row.has(1))
+      row.error("areas of node-based surfaces are not supported; they are found from the mesh: remove field 2");
     if (row.ok()) builder.nodes_of(row.text(0), block, line.location, surface.nodes);
   }
   auto& nodes = surface.nodes;
@@ -102,7 +110,8 @@ Point point_of(Row& row, int first, const char* what) {
   return {row.real_or(first, 0.0, what), row.real_or(first + 1, 0.0, what), row.real_or(first + 2, 0.0, what)};
 }
 
-/// Local axes of an extruded profile: a the origin, b on the first axis, c on the generator, which is the NEGATIVE third axis.
+/// Local axes of an extruded profile: a the origin, b on the first axis, c on the generator, which is the NEGATIVE
+/// third axis.
 bool read_extruded_axes(Builder& builder, const Block& block, AnalyticalSurface& surface) {
   Row first(builder, block, block.lines[0]), second(builder, block, block.lines[1]);
   const Point a = point_of(first, 0, "point a"), b = point_of(first, 3, "point b"), c = point_of(second, 0, "point c");
@@ -144,7 +153,8 @@ void read_analytical(Builder& builder, const Block& block, Surface& surface) {
   const bool local = block.lines.empty() || upper(block.lines[0].text).starts_with("START");  // inside a part
   std::size_t axis_lines = 0;
   if (!local && type != "SEGMENTS") axis_lines = type == "CYLINDER" ? 2 : 1;
-  if (block.lines.size() <= axis_lines) return builder.error(block, block.location, "the profile is missing; add START and LINE or CIRCL lines");
+  if (block.lines.size() <= axis_lines)
+    return builder.error(block, block.location, "the profile is missing; add START and LINE or CIRCL lines");
   if (axis_lines == 2 && !read_extruded_axes(builder, block, analytical)) return;
   if (axis_lines == 1 && !read_revolved_axes(builder, block, analytical)) return;
   analytical.profile = read_profile(builder, block, std::span(block.lines).subspan(axis_lines));
@@ -152,8 +162,9 @@ void read_analytical(Builder& builder, const Block& block, Surface& surface) {
   try {
     analytical.profile = round_corners(analytical.profile, block.real("FILLET RADIUS", 0.0));
   } catch (const std::invalid_argument& trouble) {
-    return builder.error(block, block.location, fmt::format("FILLET RADIUS {}: {}; give a smaller radius",
-                                                            block.value("FILLET RADIUS"), trouble.what()));
+    return builder.error(
+        block, block.location,
+        fmt::format("FILLET RADIUS {}: {}; give a smaller radius", block.value("FILLET RADIUS"), trouble.what()));
   }
   analytical.origin = builder.scope->place(analytical.origin);
   for (auto& axis : analytical.axes) axis = builder.scope->turn(axis);
@@ -169,7 +180,8 @@ void read_surface(Builder& builder, const Block& block) {
   surface.name = *full;
   const std::string type = block.value("TYPE", "ELEMENT");
   if (type == "ELEMENT" || type == "NODE") {
-    if (block.has("FILLET RADIUS")) builder.error(block, block.location, "FILLET RADIUS belongs to analytical surfaces; remove it");
+    if (block.has("FILLET RADIUS"))
+      builder.error(block, block.location, "FILLET RADIUS belongs to analytical surfaces; remove it");
     type == "NODE" ? read_nodes_of_surface(builder, block, surface) : read_element_faces(builder, block, surface);
   } else {
     read_analytical(builder, block, surface);
@@ -178,9 +190,11 @@ void read_surface(Builder& builder, const Block& block) {
 }
 
 const RegisterKeyword surface{
-    {"SURFACE", Phase::surfaces, Place::anywhere,
-     {required(name("NAME")), choice("TYPE", {"ELEMENT", "NODE", "CYLINDER", "REVOLUTION", "SEGMENTS"}), real("FILLET RADIUS"),
-      flag("INTERNAL")},
+    {"SURFACE",
+     Phase::surfaces,
+     Place::anywhere,
+     {required(name("NAME")), choice("TYPE", {"ELEMENT", "NODE", "CYLINDER", "REVOLUTION", "SEGMENTS"}),
+      real("FILLET RADIUS"), flag("INTERNAL")},
      read_surface}};
 
 }  // namespace

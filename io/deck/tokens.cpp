@@ -36,12 +36,16 @@ class LineCursor {
 
 /// Zero bytes anywhere, or control characters at the beginning that no text has.
 bool is_binary(const std::string& text) {
-  const auto control = [](char c) { return c >= 0 && c < 32 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != '\v'; };
+  const auto control = [](char c) {
+    return c >= 0 && c < 32 && c != '\n' && c != '\r' && c != '\t' && c != '\f' && c != '\v';
+  };
   const auto beginning = std::string_view(text).substr(0, 4096);
   return text.find('\0') != std::string::npos || std::any_of(beginning.begin(), beginning.end(), control);
 }
 
-bool is_comment(std::string_view line) { return line.starts_with("**"); }
+bool is_comment(std::string_view line) {
+  return line.starts_with("**");
+}
 
 class Tokenizer {
  public:
@@ -71,14 +75,17 @@ void Tokenizer::read(const std::string& path, Location included_from, std::strin
   if (std::find(chain_.begin(), chain_.end(), normal) != chain_.end()) {
     std::string loop;
     for (const auto& file : chain_) loop += file + " -> ";
-    diagnostics_.error(included_from, keyword, fmt::format("file {} includes itself ({}); break the loop", path, loop + normal));
+    diagnostics_.error(included_from, keyword,
+                       fmt::format("file {} includes itself ({}); break the loop", path, loop + normal));
     return;
   }
   auto text = loader_(path);
   if (!text) {
     if (included_from.file < 0) tokens_.files.push_back(path);
-    diagnostics_.error(included_from, keyword, fmt::format("cannot read file {}; check its name and folder (names count from "
-                                                           "the folder of the file that asks for it)", path));
+    diagnostics_.error(included_from, keyword,
+                       fmt::format("cannot read file {}; check its name and folder (names count from "
+                                   "the folder of the file that asks for it)",
+                                   path));
     return;
   }
   tokens_.texts.push_back(std::move(*text));
@@ -122,7 +129,8 @@ void Tokenizer::keyword_line(std::string line, Location location) {
   const bool include = block.keyword == "INCLUDE";
   if (const Parameter* input = block.find("INPUT"); input != nullptr && input->has_value) {
     const auto folder = std::filesystem::path(tokens_.files[location.file]).parent_path();
-    const std::string path = std::filesystem::path(input->raw).is_absolute() ? input->raw : (folder / input->raw).string();
+    const std::string path =
+        std::filesystem::path(input->raw).is_absolute() ? input->raw : (folder / input->raw).string();
     if (include) tokens_.blocks.pop_back();
     read(path, location, include ? "INCLUDE" : std::string(block.written));
   } else if (include) {
@@ -164,7 +172,8 @@ void Tokenizer::data_line(std::string_view line, Location location) {
     tokens_.blocks.back().lines.push_back({substitute(line, location), location});
   } else if (!told_stray_data_) {
     told_stray_data_ = true;
-    diagnostics_.error(location, "", "data before the first keyword; a deck starts with a keyword line such as *HEADING");
+    diagnostics_.error(location, "",
+                       "data before the first keyword; a deck starts with a keyword line such as *HEADING");
   }
 }
 
@@ -181,9 +190,11 @@ void Tokenizer::parameter_line(std::string_view line, Location location) {
     parameters_[name] = evaluate(line.substr(equals + 1), parameters_);
   } catch (const std::invalid_argument& trouble) {
     parameters_[name] = 0.0;  // told once, here
-    diagnostics_.error(location, "PARAMETER", fmt::format("the expression of {} cannot be evaluated: {}; allowed are numbers, "
-                                                          "parameters, + - * / **, parentheses and SQRT, SIN, COS, TAN, EXP, "
-                                                          "LOG, ABS", name, trouble.what()));
+    diagnostics_.error(location, "PARAMETER",
+                       fmt::format("the expression of {} cannot be evaluated: {}; allowed are numbers, "
+                                   "parameters, + - * / **, parentheses and SQRT, SIN, COS, TAN, EXP, "
+                                   "LOG, ABS",
+                                   name, trouble.what()));
   }
 }
 
@@ -199,8 +210,9 @@ std::string_view Tokenizer::substitute(std::string_view line, Location location)
     if (found == parameters_.end()) {
       std::vector<std::string> names;
       for (const auto& [known, value] : parameters_) names.push_back(known);
-      diagnostics_.error(location, "PARAMETER", fmt::format("<{}> has no value{}; assign it under *PARAMETER above this line",
-                                                            name, did_you_mean(name, names)));
+      diagnostics_.error(location, "PARAMETER",
+                         fmt::format("<{}> has no value{}; assign it under *PARAMETER above this line", name,
+                                     did_you_mean(name, names)));
       parameters_[name] = 0.0;
     }
     result += line.substr(0, open);
@@ -217,7 +229,8 @@ std::string_view Tokenizer::substitute(std::string_view line, Location location)
 
 const Parameter* Block::find(std::string_view name) const {
   const std::string squeezed = squeeze(name);
-  const auto found = std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == squeezed; });
+  const auto found =
+      std::find_if(parameters.begin(), parameters.end(), [&](const Parameter& p) { return p.name == squeezed; });
   return found == parameters.end() ? nullptr : &*found;
 }
 

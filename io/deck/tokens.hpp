@@ -1,5 +1,5 @@
-// From text to keyword blocks: comments, continuation lines, *INCLUDE, INPUT= files, *PARAMETER and <name> substitution.
-// Blocks and lines are views of the loaded text: no line owns memory.
+// From text to keyword blocks: comments, continuation lines, *INCLUDE, INPUT= files, *PARAMETER and <name>
+// substitution. Blocks and lines are views of the loaded text: no line owns memory.
 #pragma once
 
 #include <deque>

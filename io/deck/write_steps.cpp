@@ -7,13 +7,18 @@ namespace balocco::deck {
 
 namespace {
 
-const Step* before(const Model& model, std::size_t row) { return row == 0 ? nullptr : &model.steps[row - 1]; }
+const Step* before(const Model& model, std::size_t row) {
+  return row == 0 ? nullptr : &model.steps[row - 1];
+}
 
 const char* type_of(BoundaryCondition::Kind kind) {
   switch (kind) {
-    case BoundaryCondition::Kind::velocity: return ", TYPE=VELOCITY";
-    case BoundaryCondition::Kind::acceleration: return ", TYPE=ACCELERATION";
-    case BoundaryCondition::Kind::displacement: break;
+    case BoundaryCondition::Kind::velocity:
+      return ", TYPE=VELOCITY";
+    case BoundaryCondition::Kind::acceleration:
+      return ", TYPE=ACCELERATION";
+    case BoundaryCondition::Kind::displacement:
+      break;
   }
   return "";
 }
@@ -23,7 +28,8 @@ const char* type_of(BoundaryCondition::Kind kind) {
 void Writer::procedure(const Step& step) {
   if (step.procedure == Step::Procedure::static_analysis) {
     const auto& p = step.static_procedure;
-    line("*STATIC{}{}", p.direct ? ", DIRECT" : "", p.stabilize ? fmt::format(", STABILIZE={}", p.dissipated_energy_fraction) : "");
+    line("*STATIC{}{}", p.direct ? ", DIRECT" : "",
+         p.stabilize ? fmt::format(", STABILIZE={}", p.dissipated_energy_fraction) : "");
     line("{}, {}, {}, {}", p.initial_increment, p.duration, p.minimum_increment, p.maximum_increment);
     return;
   }
@@ -69,16 +75,17 @@ void Writer::boundary(std::size_t row) {
     return std::any_of(conditions.begin(), conditions.end(),
                        [&](const BoundaryCondition& c) { return c.node == old.node && c.dof == old.dof; });
   };
-  const bool renew = previous != nullptr && !(conditions.size() >= previous->boundary.size() &&
-                     std::equal(previous->boundary.begin(), previous->boundary.end(), conditions.begin(),
-                                [](const auto& a, const auto& b) { return a.node == b.node && a.dof == b.dof; })) &&
+  const bool renew = previous != nullptr &&
+                     !(conditions.size() >= previous->boundary.size() &&
+                       std::equal(previous->boundary.begin(), previous->boundary.end(), conditions.begin(),
+                                  [](const auto& a, const auto& b) { return a.node == b.node && a.dof == b.dof; })) &&
                      !std::all_of(previous->boundary.begin(), previous->boundary.end(), still_there);
   if (renew) line("*BOUNDARY, OP=NEW");
   std::string header;
   for (const auto& c : conditions) {
     if (c.propagated && !renew) continue;
-    const std::string wanted = fmt::format("*BOUNDARY{}{}{}{}", renew ? ", OP=NEW" : "", type_of(c.kind), c.fixed ? ", FIXED" : "",
-                                           amplitude_parameter(c.amplitude));
+    const std::string wanted = fmt::format("*BOUNDARY{}{}{}{}", renew ? ", OP=NEW" : "", type_of(c.kind),
+                                           c.fixed ? ", FIXED" : "", amplitude_parameter(c.amplitude));
     if (wanted != header) line("{}", wanted);
     header = wanted;
     if (c.fixed) {
@@ -106,15 +113,18 @@ void Writer::loads(const Step& step) {
   }
   for (const auto& load : step.gravity) {
     head("*DLOAD", load.amplitude);
-    line("{}, GRAV, {}, {}, {}, {}", load.element_set < 0 ? "" : quoted(model_.element_sets[load.element_set].name), load.magnitude,
-         load.direction[0], load.direction[1], load.direction[2]);
+    line("{}, GRAV, {}, {}, {}, {}", load.element_set < 0 ? "" : quoted(model_.element_sets[load.element_set].name),
+         load.magnitude, load.direction[0], load.direction[1], load.direction[2]);
   }
 }
 
 void Writer::attachments(const Step& step) {
   for (const auto& change : step.attachments) {
     const auto& body = model_.rigid_bodies[change.rigid_body];
-    line("*RIGID BODY, REF NODE={}, {} NSET={}", node_id(body.reference_node), change.release ? "RELEASE" : change.tie ? "TIE" : "PIN",
+    line("*RIGID BODY, REF NODE={}, {} NSET={}", node_id(body.reference_node),
+         change.release ? "RELEASE"
+         : change.tie   ? "TIE"
+                        : "PIN",
          quoted(node_set_of(change.nodes, fmt::format("_{}-{}-CHANGE", step.name, body.name))));
   }
 }
@@ -158,7 +168,8 @@ void Writer::history_output(const HistoryOutput& output) {
     values(output.energies);
   }
   for (const auto pair : output.contact_pairs) {
-    line("*CONTACT OUTPUT, SLAVE={}, MASTER={}\nCFN, CFT, CM, CAREA, XN", quoted(model_.surfaces[model_.contact_pairs[pair].slave].name),
+    line("*CONTACT OUTPUT, SLAVE={}, MASTER={}\nCFN, CFT, CM, CAREA, XN",
+         quoted(model_.surfaces[model_.contact_pairs[pair].slave].name),
          quoted(model_.surfaces[model_.contact_pairs[pair].master].name));
   }
 }
@@ -169,7 +180,8 @@ void Writer::checkpoints(std::size_t row) {
     line("*RESTART, WRITE, FREQUENCY={}", *step.checkpoint_frequency);
   } else if (step.checkpoint_number_interval) {
     line("*RESTART, WRITE, NUMBER INTERVAL={}", *step.checkpoint_number_interval);
-  } else if (row > 0 && (model_.steps[row - 1].checkpoint_frequency || model_.steps[row - 1].checkpoint_number_interval)) {
+  } else if (row > 0 &&
+             (model_.steps[row - 1].checkpoint_frequency || model_.steps[row - 1].checkpoint_number_interval)) {
     line("*RESTART, WRITE, FREQUENCY=0");
   }
 }

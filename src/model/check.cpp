@@ -21,8 +21,9 @@ class Checker {
   explicit Checker(const Model& model) : model_(model) {}
 
   std::vector<std::string> run() {
-    if (model_.elements.empty()) errors_.push_back((model_.files.empty() ? model_.name : model_.files[0]) +
-                                                   ": error: the model has no elements; add *NODE and *ELEMENT");
+    if (model_.elements.empty())
+      errors_.push_back((model_.files.empty() ? model_.name : model_.files[0]) +
+                        ": error: the model has no elements; add *NODE and *ELEMENT");
     check_sections();
     check_geometry();
     check_materials();
@@ -60,16 +61,22 @@ class Checker {
   std::vector<std::int32_t> carrier_;  // rigid body that carries a node from the start, -1: none
 };
 
-Point minus(const Point& a, const Point& b) { return {a[0] - b[0], a[1] - b[1], a[2] - b[2]}; }
+Point minus(const Point& a, const Point& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
 
 Point cross(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-double dot(const Point& a, const Point& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
+double dot(const Point& a, const Point& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
 
 /// Six times the volume between a triangle and the origin.
-double six_volumes(const Point& a, const Point& b, const Point& c) { return dot(a, cross(b, c)); }
+double six_volumes(const Point& a, const Point& b, const Point& c) {
+  return dot(a, cross(b, c));
+}
 
 void Checker::check_sections() {
   for (const auto& table : model_.elements) {
@@ -77,12 +84,15 @@ void Checker::check_sections() {
     if (none == table.section.end()) continue;
     const auto row = none - table.section.begin();
     const auto count = std::count(table.section.begin(), table.section.end(), -1);
-    error(table.location[row], fmt::format("*ELEMENT: element {} of type {} has no section ({} in all); add a section for a set that holds it",
-                                           table.id[row], table.type->name, count));
+    error(
+        table.location[row],
+        fmt::format("*ELEMENT: element {} of type {} has no section ({} in all); add a section for a set that holds it",
+                    table.id[row], table.type->name, count));
   }
 }
 
-/// Volume of a solid by its outward faces; a bilinear face counts as the mean of its two triangulations, which is exact.
+/// Volume of a solid by its outward faces; a bilinear face counts as the mean of its two triangulations, which is
+/// exact.
 void Checker::check_element(const ElementTable& table, std::int32_t row) {
   const Point base = point(table, row, 0);
   const auto at = [&](int node) { return minus(point(table, row, node), base); };
@@ -99,17 +109,20 @@ void Checker::check_element(const ElementTable& table, std::int32_t row) {
     }
     // Round-off of a flat element: far below any shape that can be computed with.
     if (measure <= 1e-12 * size * size * size) {
-      error(table.location[row], fmt::format("*ELEMENT: element {} has {} volume; list its nodes so that the first face runs "
-                                             "counter-clockwise seen from the opposite face, as {} wants", table.id[row],
-                                             measure < -1e-12 * size * size * size ? "a negative" : "no", type.name));
+      error(table.location[row],
+            fmt::format("*ELEMENT: element {} has {} volume; list its nodes so that the first face runs "
+                        "counter-clockwise seen from the opposite face, as {} wants",
+                        table.id[row], measure < -1e-12 * size * size * size ? "a negative" : "no", type.name));
     }
   } else if (type.shape == Shape::triangle || type.shape == Shape::quadrilateral) {
     const Point normal = type.nodes == 3 ? cross(at(1), at(2)) : cross(at(2), minus(at(3), at(1)));
     if (std::sqrt(dot(normal, normal)) <= 1e-12 * size * size) {
-      error(table.location[row], fmt::format("*ELEMENT: element {} has no area; its nodes must not lie on a line", table.id[row]));
+      error(table.location[row],
+            fmt::format("*ELEMENT: element {} has no area; its nodes must not lie on a line", table.id[row]));
     }
   } else if (type.shape == Shape::line && !(size > 0.0)) {
-    error(table.location[row], fmt::format("*ELEMENT: element {} has no length; its nodes must not coincide", table.id[row]));
+    error(table.location[row],
+          fmt::format("*ELEMENT: element {} has no length; its nodes must not coincide", table.id[row]));
   }
 }
 
@@ -122,12 +135,14 @@ void Checker::check_geometry() {
 void Checker::check_materials() {
   for (const auto& material : model_.materials) {
     if (material.law.empty()) {
-      error(material.location, fmt::format("*MATERIAL: material {} has no law; add *ELASTIC or *HYPERELASTIC below it", material.name));
+      error(material.location,
+            fmt::format("*MATERIAL: material {} has no law; add *ELASTIC or *HYPERELASTIC below it", material.name));
       continue;
     }
     const MaterialLaw* law = find_material_law(material.law);
     if (law == nullptr) {
-      error(material.location, fmt::format("*MATERIAL: material {} has the unknown law {}", material.name, material.law));
+      error(material.location,
+            fmt::format("*MATERIAL: material {} has the unknown law {}", material.name, material.law));
       continue;
     }
     try {  // conditions between parameters, such as a positive definite stiffness, are the law's own business
@@ -146,14 +161,16 @@ void Checker::check_law(const Section& section, std::int32_t material) {
   const MaterialLaw* law = find_material_law(model_.materials[material].law);
   if (law == nullptr) return;  // told
   const bool composite = !section.plies.empty();
-  const bool fits = section.kind == Section::Kind::solid      ? law->solid != nullptr
-                    : section.kind == Section::Kind::truss    ? law->line != nullptr
-                    : section.kind == Section::Kind::membrane ? (composite ? law->lamina_stiffness != nullptr : law->plane != nullptr)
-                                                              : true;
+  const bool fits = section.kind == Section::Kind::solid   ? law->solid != nullptr
+                    : section.kind == Section::Kind::truss ? law->line != nullptr
+                    : section.kind == Section::Kind::membrane
+                        ? (composite ? law->lamina_stiffness != nullptr : law->plane != nullptr)
+                        : true;
   if (!fits) {
-    error(section.location, fmt::format("*{}: the law {} of material {} does not exist for these elements; choose another law",
-                                        section.kind == Section::Kind::membrane ? "MEMBRANE SECTION" : "SOLID SECTION", law->name,
-                                        model_.materials[material].name));
+    error(section.location,
+          fmt::format("*{}: the law {} of material {} does not exist for these elements; choose another law",
+                      section.kind == Section::Kind::membrane ? "MEMBRANE SECTION" : "SOLID SECTION", law->name,
+                      model_.materials[material].name));
   }
 }
 
@@ -176,12 +193,15 @@ void Checker::check_rigid_bodies() {
       for (const auto node : *nodes) {
         const auto id = model_.nodes.id[node];
         if (reference[node] >= 0) {
-          error(body.location, fmt::format("*RIGID BODY: node {} is the reference node of another rigid body; take it out of the set", id));
+          error(body.location,
+                fmt::format("*RIGID BODY: node {} is the reference node of another rigid body; take it out of the set",
+                            id));
           break;
         }
         if (carrier_[node] >= 0) {
-          error(body.location, fmt::format("*RIGID BODY: node {} already belongs to the rigid body of {}; take it out of one of them", id,
-                                           model_.where(model_.rigid_bodies[carrier_[node]].location)));
+          error(body.location,
+                fmt::format("*RIGID BODY: node {} already belongs to the rigid body of {}; take it out of one of them",
+                            id, model_.where(model_.rigid_bodies[carrier_[node]].location)));
           break;
         }
         carrier_[node] = static_cast<std::int32_t>(b);
@@ -196,11 +216,14 @@ void Checker::check_contact() {
     const auto& master = model_.surfaces[pair.master];
     const auto carries = [&](const RigidBody& body) { return body.analytical_surface == pair.master; };
     if (slave.kind == Surface::Kind::analytical || master.kind != Surface::Kind::analytical) {
-      error(pair.location, fmt::format("*CONTACT PAIR: slave {} must be made of element faces or nodes and master {} be analytical",
-                                       slave.name, master.name));
+      error(pair.location,
+            fmt::format("*CONTACT PAIR: slave {} must be made of element faces or nodes and master {} be analytical",
+                        slave.name, master.name));
     } else if (std::none_of(model_.rigid_bodies.begin(), model_.rigid_bodies.end(), carries)) {
-      error(pair.location, fmt::format("*CONTACT PAIR: surface {} belongs to no rigid body; add *RIGID BODY, ANALYTICAL SURFACE={}, "
-                                       "REF NODE=...", master.name, master.name));
+      error(pair.location,
+            fmt::format("*CONTACT PAIR: surface {} belongs to no rigid body; add *RIGID BODY, ANALYTICAL SURFACE={}, "
+                        "REF NODE=...",
+                        master.name, master.name));
     }
   }
 }
@@ -210,7 +233,8 @@ void Checker::check_boundary(const Step& step) {
     const std::int32_t body = carrier_[condition.node];
     if (body < 0) continue;
     error({condition.file, condition.line},
-          fmt::format("*BOUNDARY: node {} is carried by the rigid body of {}; prescribe its reference node {} instead (in a step that attaches "
+          fmt::format("*BOUNDARY: node {} is carried by the rigid body of {}; prescribe its reference node {} instead "
+                      "(in a step that attaches "
                       "nodes, *BOUNDARY, OP=NEW drops their earlier conditions)",
                       model_.nodes.id[condition.node], model_.where(model_.rigid_bodies[body].location),
                       model_.nodes.id[model_.rigid_bodies[body].reference_node]));
@@ -222,8 +246,9 @@ void Checker::check_density(const Step& step) {
   const char* why = step.procedure == Step::Procedure::explicit_dynamics ? "an explicit step" : "gravity";
   const auto need = [&](std::int32_t material) {
     if (material < 0 || model_.materials[material].density > 0.0) return;
-    error(model_.materials[material].location, fmt::format("*MATERIAL: material {} has no density, which {} needs; add *DENSITY",
-                                                           model_.materials[material].name, why));
+    error(model_.materials[material].location,
+          fmt::format("*MATERIAL: material {} has no density, which {} needs; add *DENSITY",
+                      model_.materials[material].name, why));
   };
   for (const auto& section : model_.sections) {
     need(section.material);
@@ -241,6 +266,8 @@ void Checker::check_step(const Step& step) {
 
 }  // namespace
 
-std::vector<std::string> check_model(const Model& model) { return Checker(model).run(); }
+std::vector<std::string> check_model(const Model& model) {
+  return Checker(model).run();
+}
 
 }  // namespace balocco

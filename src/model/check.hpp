@@ -11,8 +11,8 @@ namespace balocco {
 /// Errors "FILE:LINE: error: what is wrong; how to mend it", empty for a sound model.
 std::vector<std::string> check_model(const Model& model);
 
-/// What was understood: counts, mass by section, centre of gravity, inertia, bounding box, stable increment with the element that
-/// governs it, memory and run time on `ranks` ranks, warnings.
+/// What was understood: counts, mass by section, centre of gravity, inertia, bounding box, stable increment with the
+/// element that governs it, memory and run time on `ranks` ranks, warnings.
 std::string summarize(const Model& model, int ranks);
 
 }  // namespace balocco

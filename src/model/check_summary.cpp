@@ -26,9 +26,7 @@ struct MassProperties {
       for (int j = 0; j < 3; ++j) second[3 * i + j] += m * x[i] * x[j];
     }
   }
-  Point center() const {
-    return mass > 0.0 ? Point{moment[0] / mass, moment[1] / mass, moment[2] / mass} : Point{};
-  }
+  Point center() const { return mass > 0.0 ? Point{moment[0] / mass, moment[1] / mass, moment[2] / mass} : Point{}; }
   /// I11 I22 I33 I12 I13 I23 about the centre of mass.
   std::array<double, 6> inertia() const {
     const Point c = center();
@@ -104,9 +102,11 @@ class Summary {
 };
 
 void Summary::counts() {
-  line("Model {}: {} nodes, {} node sets, {} element sets, {} surfaces, {} materials, {} rigid bodies, {} contact pairs, {} steps",
-       model_.name, model_.nodes.size(), model_.node_sets.size(), model_.element_sets.size(), model_.surfaces.size(),
-       model_.materials.size(), model_.rigid_bodies.size(), model_.contact_pairs.size(), model_.steps.size());
+  line(
+      "Model {}: {} nodes, {} node sets, {} element sets, {} surfaces, {} materials, {} rigid bodies, {} contact "
+      "pairs, {} steps",
+      model_.name, model_.nodes.size(), model_.node_sets.size(), model_.element_sets.size(), model_.surfaces.size(),
+      model_.materials.size(), model_.rigid_bodies.size(), model_.contact_pairs.size(), model_.steps.size());
   if (!model_.units.length.empty() || !model_.units.mass.empty() || !model_.units.time.empty()) {
     line("Units: length {}, mass {}, time {}", model_.units.length, model_.units.mass, model_.units.time);
   }
@@ -136,7 +136,8 @@ void Summary::add_group(const Part& part, MassProperties& properties) {
     group->lumped_mass(element, masses);
     for (int n = 0; n < count; ++n) properties.add(masses[n], model_.nodes.coordinates[group->nodes(element)[n]]);
   }
-  bytes_ += static_cast<double>(group->bytes_per_element() + sizeof(double) * group->history_size()) * group->padded_size();
+  bytes_ +=
+      static_cast<double>(group->bytes_per_element() + sizeof(double) * group->history_size()) * group->padded_size();
   computed_elements_ += group->size();
   if (properties.mass <= 0.0) return;  // no density: no stable increment
   std::vector<double> position(4 * (model_.nodes.id.size() + 1)), velocity(position.size()), force(position.size());
@@ -171,8 +172,8 @@ void Summary::add_part(const Part& part) {
   if (section.kind == Section::Kind::rotary_inertia) return;
   const Point c = properties.center();
   part_lines_.push_back(fmt::format("  {:<24} {:<7} {:>9} elements  mass {:<12.6g} centre ({:.6g}, {:.6g}, {:.6g})",
-                                    section.element_set.empty() ? "-" : section.element_set, table.type->name, part.rows.size(),
-                                    properties.mass, c[0], c[1], c[2]));
+                                    section.element_set.empty() ? "-" : section.element_set, table.type->name,
+                                    part.rows.size(), properties.mass, c[0], c[1], c[2]));
 }
 
 void Summary::add_rotary_inertia() {
@@ -189,8 +190,8 @@ void Summary::mass_lines() {
   auto inertia = total_.inertia();
   for (int i = 0; i < 6; ++i) inertia[i] += rotary_[i];
   line("Mass {:.6g}, centre of gravity ({:.6g}, {:.6g}, {:.6g})", total_.mass, c[0], c[1], c[2]);
-  line("Inertia about it I11 {:.6g} I22 {:.6g} I33 {:.6g} I12 {:.6g} I13 {:.6g} I23 {:.6g}", inertia[0], inertia[1], inertia[2],
-       inertia[3], inertia[4], inertia[5]);
+  line("Inertia about it I11 {:.6g} I22 {:.6g} I33 {:.6g} I12 {:.6g} I13 {:.6g} I23 {:.6g}", inertia[0], inertia[1],
+       inertia[2], inertia[3], inertia[4], inertia[5]);
   line("By section:");
   for (const auto& part : part_lines_) text_ += part + "\n";
 }
@@ -204,7 +205,8 @@ void Summary::box() {
       high[i] = std::max(high[i], x[i]);
     }
   }
-  line("Bounding box ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", low[0], low[1], low[2], high[0], high[1], high[2]);
+  line("Bounding box ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, {:.6g})", low[0], low[1], low[2], high[0], high[1],
+       high[2]);
 }
 
 void Summary::time_lines() {
@@ -212,26 +214,30 @@ void Summary::time_lines() {
     line("Stable increment: none (no element with mass)");
     return;
   }
-  line("Stable increment of the undeformed model {:.6g}, element {} ({})", stable_increment_, critical_element_, critical_type_);
-  // A reduced brick takes about this long on one core of the machines that Balocco was measured on; other types up to ten times.
+  line("Stable increment of the undeformed model {:.6g}, element {} ({})", stable_increment_, critical_element_,
+       critical_type_);
+  // A reduced brick takes about this long on one core of the machines that Balocco was measured on; other types up to
+  // ten times.
   constexpr double seconds_per_element_cycle = 200e-9;
   for (const auto& step : model_.steps) {
     if (step.procedure != Step::Procedure::explicit_dynamics) {
       line("Step {}: static, period {:.6g}", step.name, step.duration());
       continue;
     }
-    const double increment = step.explicit_procedure.fixed_increment.value_or(stable_increment_ * step.explicit_procedure.scale_factor);
+    const double increment =
+        step.explicit_procedure.fixed_increment.value_or(stable_increment_ * step.explicit_procedure.scale_factor);
     const double cycles = step.duration() / increment;
-    line("Step {}: explicit, period {:.6g}, about {:.3g} increments, {:.3g} s on {} ranks", step.name, step.duration(), cycles,
-         cycles * static_cast<double>(computed_elements_) * seconds_per_element_cycle / ranks_, ranks_);
+    line("Step {}: explicit, period {:.6g}, about {:.3g} increments, {:.3g} s on {} ranks", step.name, step.duration(),
+         cycles, cycles * static_cast<double>(computed_elements_) * seconds_per_element_cycle / ranks_, ranks_);
   }
 }
 
 void Summary::memory_line() {
-  // Per node: position, velocity, force, acceleration, reaction (4 doubles each), mass, work, damping, and the tables of the model.
+  // Per node: position, velocity, force, acceleration, reaction (4 doubles each), mass, work, damping, and the tables
+  // of the model.
   const double nodes = static_cast<double>(model_.nodes.size()) * (5 * 32 + 4 * 8 + 100);
-  line("Memory about {:.3g} MB in all, {:.3g} MB a rank on {} ranks (implicit steps need more for the factors)", (nodes + bytes_) / 1e6,
-       (nodes + bytes_) / 1e6 / ranks_, ranks_);
+  line("Memory about {:.3g} MB in all, {:.3g} MB a rank on {} ranks (implicit steps need more for the factors)",
+       (nodes + bytes_) / 1e6, (nodes + bytes_) / 1e6 / ranks_, ranks_);
 }
 
 void Summary::warnings() {
@@ -258,6 +264,8 @@ void Summary::warnings() {
 
 }  // namespace
 
-std::string summarize(const Model& model, int ranks) { return Summary(model, ranks).text(); }
+std::string summarize(const Model& model, int ranks) {
+  return Summary(model, ranks).text();
+}
 
 }  // namespace balocco

@@ -1,5 +1,5 @@
-// Every deck of tests/badinput is refused by the reader with the one message on its first line. (The whole program is driven
-// over the same decks by tests/badinput/run_case.sh.)
+// Every deck of tests/badinput is refused by the reader with the one message on its first line. (The whole program is
+// driven over the same decks by tests/badinput/run_case.sh.)
 #include <gtest/gtest.h>
 
 #include <filesystem>

@@ -14,11 +14,16 @@ using test::read;
 const std::string bars = "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=E, MATERIAL=M\n";
 const std::string bar = "*ELEMENT, TYPE=T3D2, ELSET=E\n1, 1, 2\n";
 
-const Point& at(const Model& model, std::int64_t id) { return model.nodes.coordinates[model.nodes.row_of_id.at(id)]; }
+const Point& at(const Model& model, std::int64_t id) {
+  return model.nodes.coordinates[model.nodes.row_of_id.at(id)];
+}
 
 TEST(DeckMesh, NodesOnALineAndOnACircle) {
-  const auto model = read("*NODE\n1, 1., 0., 0.\n2, 0., 2., 0.\n9, 5., 0., 0.\n11, 0., 1., 0.\n100, 0., 0., 0.\n"
-                          "*NGEN, NSET=LINE\n1, 9, 2\n*NGEN, LINE=C\n1, 11, 5, 100\n" + bar + bars).model;
+  const auto model = read(
+                         "*NODE\n1, 1., 0., 0.\n2, 0., 2., 0.\n9, 5., 0., 0.\n11, 0., 1., 0.\n100, 0., 0., 0.\n"
+                         "*NGEN, NSET=LINE\n1, 9, 2\n*NGEN, LINE=C\n1, 11, 5, 100\n" +
+                         bar + bars)
+                         .model;
   EXPECT_EQ(at(model, 5), (Point{3.0, 0.0, 0.0}));
   EXPECT_EQ(model.node_sets[0].nodes.size(), 5u);
   // Half-way on a quarter circle; 1e-15 is round-off.
@@ -27,9 +32,13 @@ TEST(DeckMesh, NodesOnALineAndOnACircle) {
 }
 
 TEST(DeckMesh, FillAndCopy) {
-  const auto model = read("*NODE, NSET=A\n1, 0., 0., 0.\n2, 1., 0., 0.\n*NODE, NSET=B\n31, 0., 3., 0.\n32, 1., 6., 0.\n"
-                          "*NFILL, NSET=ALL\nA, B, 3, 10\n*NCOPY, OLD SET=A, CHANGE NUMBER=100, SHIFT, NEW SET=C\n0., 0., 5.\n"
-                          "0., 0., 0., 0., 0., 1., 90.\n" + bar + bars).model;
+  const auto model =
+      read(
+          "*NODE, NSET=A\n1, 0., 0., 0.\n2, 1., 0., 0.\n*NODE, NSET=B\n31, 0., 3., 0.\n32, 1., 6., 0.\n"
+          "*NFILL, NSET=ALL\nA, B, 3, 10\n*NCOPY, OLD SET=A, CHANGE NUMBER=100, SHIFT, NEW SET=C\n0., 0., 5.\n"
+          "0., 0., 0., 0., 0., 1., 90.\n" +
+          bar + bars)
+          .model;
   EXPECT_EQ(at(model, 12), (Point{1.0, 2.0, 0.0}));
   EXPECT_EQ(at(model, 21), (Point{0.0, 2.0, 0.0}));
   EXPECT_NEAR(at(model, 102)[0], 0.0, 1e-15);
@@ -38,17 +47,23 @@ TEST(DeckMesh, FillAndCopy) {
 }
 
 TEST(DeckMesh, CylindricalInputAndLocalSystem) {
-  const auto model = read("*SYSTEM\n10., 0., 0., 10., 1., 0.\n9., 0., 0.\n*NODE\n1, 1., 2., 3.\n*SYSTEM\n"
-                          "*NODE, SYSTEM=C\n2, 2., 90., 1.\n" + bar + bars).model;
+  const auto model = read(
+                         "*SYSTEM\n10., 0., 0., 10., 1., 0.\n9., 0., 0.\n*NODE\n1, 1., 2., 3.\n*SYSTEM\n"
+                         "*NODE, SYSTEM=C\n2, 2., 90., 1.\n" +
+                         bar + bars)
+                         .model;
   EXPECT_EQ(at(model, 1), (Point{8.0, 1.0, 3.0}));  // local x is global y, local y is global -x
   EXPECT_NEAR(at(model, 2)[0], 0.0, 1e-15);
   EXPECT_NEAR(at(model, 2)[1], 2.0, 1e-15);
 }
 
 TEST(DeckMesh, GeneratedElements) {
-  const auto model = read("*NODE\n1\n5, 4.\n11, 0., 1.\n15, 4., 1.\n*NGEN\n1, 5\n11, 15\n*ELEMENT, TYPE=T3D2\n1, 1, 2\n"
-                          "*ELGEN, ELSET=E\n1, 4, 1, 1, 2, 10, 10\n*ELCOPY, OLD SET=E, ELEMENT SHIFT=100, SHIFT NODES=0, NEW SET=F\n"
-                          "*ELSET, ELSET=G\nE, F\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=G, MATERIAL=M\n").model;
+  const auto model =
+      read(
+          "*NODE\n1\n5, 4.\n11, 0., 1.\n15, 4., 1.\n*NGEN\n1, 5\n11, 15\n*ELEMENT, TYPE=T3D2\n1, 1, 2\n"
+          "*ELGEN, ELSET=E\n1, 4, 1, 1, 2, 10, 10\n*ELCOPY, OLD SET=E, ELEMENT SHIFT=100, SHIFT NODES=0, NEW SET=F\n"
+          "*ELSET, ELSET=G\nE, F\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=G, MATERIAL=M\n")
+          .model;
   ASSERT_EQ(model.elements[0].size(), 16);
   EXPECT_EQ(model.elements[0].id[4], 11);
   EXPECT_EQ(model.elements[0].connectivity[8], model.nodes.row_of_id.at(11));
@@ -56,30 +71,44 @@ TEST(DeckMesh, GeneratedElements) {
 }
 
 TEST(DeckSets, MayReferToWhatComesLater) {
-  const auto model = read("*NSET, NSET=BOTH\nFIRST, 2\n*NSET, NSET=FIRST\n1\n*NSET, NSET=OF_BARS, ELSET=E\n*ELSET, ELSET=ALSO\nE\n"
-                          "*NODE\n1\n2, 1.\n3, 2.\n" + bar + bars).model;
+  const auto model =
+      read(
+          "*NSET, NSET=BOTH\nFIRST, 2\n*NSET, NSET=FIRST\n1\n*NSET, NSET=OF_BARS, ELSET=E\n*ELSET, ELSET=ALSO\nE\n"
+          "*NODE\n1\n2, 1.\n3, 2.\n" +
+          bar + bars)
+          .model;
   for (const auto& set : model.node_sets) {
-    EXPECT_EQ(set.nodes, set.name == "FIRST" ? (std::vector<std::int32_t>{0}) : (std::vector<std::int32_t>{0, 1})) << set.name;
+    EXPECT_EQ(set.nodes, set.name == "FIRST" ? (std::vector<std::int32_t>{0}) : (std::vector<std::int32_t>{0, 1}))
+        << set.name;
   }
   ASSERT_EQ(model.element_sets.size(), 2u);
   EXPECT_EQ(model.element_sets[0].elements, model.element_sets[1].elements);
 }
 
 TEST(DeckSets, SortedUnlessUnsorted) {
-  const auto model = read("*NODE\n1\n2, 1.\n3, 2.\n*NSET, NSET=S\n3, 1, 3\n*NSET, NSET=U, UNSORTED\n3, 1\n"
-                          "*NSET, NSET=G, GENERATE\n1, 3, 2\n" + bar + bars).model;
+  const auto model = read(
+                         "*NODE\n1\n2, 1.\n3, 2.\n*NSET, NSET=S\n3, 1, 3\n*NSET, NSET=U, UNSORTED\n3, 1\n"
+                         "*NSET, NSET=G, GENERATE\n1, 3, 2\n" +
+                         bar + bars)
+                         .model;
   EXPECT_EQ(model.node_sets[0].nodes, (std::vector<std::int32_t>{0, 2}));
   EXPECT_EQ(model.node_sets[1].nodes, (std::vector<std::int32_t>{2, 0}));
   EXPECT_EQ(model.node_sets[2].nodes, (std::vector<std::int32_t>{0, 2}));
 }
 
 TEST(DeckAssembly, InstancesAreMovedAndRenumbered) {
-  const auto model = read(
-      "*PART, NAME=BAR\n*NODE, NSET=TIP\n2, 1., 0., 0.\n*NODE\n1\n*ELEMENT, TYPE=T3D2, ELSET=E\n1, 1, 2\n"
-      "*SOLID SECTION, ELSET=E, MATERIAL=M\n2.\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=LEFT, PART=BAR\n*END INSTANCE\n"
-      "*INSTANCE, NAME=RIGHT, PART=BAR\n10., 0., 0.\n10., 0., 0., 10., 0., 1., 90.\n*END INSTANCE\n*NODE\n1, 5., 5., 5.\n"
-      "*NSET, NSET=TIPS, INSTANCE=LEFT\n2\n*NSET, NSET=TIPS, INSTANCE=RIGHT\nTIP\n*NSET, NSET=REF\n1\n*END ASSEMBLY\n"
-      "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*STEP\n*STATIC\n*BOUNDARY\nTIPS, 1\nRIGHT.TIP, 2\nLEFT.1, 3\nREF, 3\n*END STEP\n").model;
+  const auto model =
+      read(
+          "*PART, NAME=BAR\n*NODE, NSET=TIP\n2, 1., 0., 0.\n*NODE\n1\n*ELEMENT, TYPE=T3D2, ELSET=E\n1, 1, 2\n"
+          "*SOLID SECTION, ELSET=E, MATERIAL=M\n2.\n*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=LEFT, PART=BAR\n*END "
+          "INSTANCE\n"
+          "*INSTANCE, NAME=RIGHT, PART=BAR\n10., 0., 0.\n10., 0., 0., 10., 0., 1., 90.\n*END INSTANCE\n*NODE\n1, 5., "
+          "5., 5.\n"
+          "*NSET, NSET=TIPS, INSTANCE=LEFT\n2\n*NSET, NSET=TIPS, INSTANCE=RIGHT\nTIP\n*NSET, NSET=REF\n1\n*END "
+          "ASSEMBLY\n"
+          "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*STEP\n*STATIC\n*BOUNDARY\nTIPS, 1\nRIGHT.TIP, 2\nLEFT.1, 3\nREF, "
+          "3\n*END STEP\n")
+          .model;
   ASSERT_EQ(model.nodes.size(), 5);
   EXPECT_EQ(model.nodes.id, (std::vector<std::int64_t>{2, 1, 1002, 1001, 2001}));
   EXPECT_EQ(model.elements[0].id, (std::vector<std::int64_t>{1, 1001}));
@@ -93,7 +122,9 @@ TEST(DeckAssembly, InstancesAreMovedAndRenumbered) {
 
 TEST(DeckMesh, ElementNeedsItsSectionOnce) {
   const std::string errors = errors_of("*NODE\n1\n2, 1.\n3, 2.\n" + bar + "*ELEMENT, TYPE=T3D2\n2, 2, 3\n" + bars);
-  EXPECT_EQ(errors, "job.inp:8: error: *ELEMENT: element 2 of type T3D2 has no section (1 in all); add a section for a set that holds it\n");
+  EXPECT_EQ(errors,
+            "job.inp:8: error: *ELEMENT: element 2 of type T3D2 has no section (1 in all); add a section for a set "
+            "that holds it\n");
 }
 
 }  // namespace

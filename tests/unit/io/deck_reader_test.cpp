@@ -10,7 +10,8 @@ using test::brick;
 using test::read;
 
 TEST(DeckReader, BrickWithAStaticStep) {
-  const auto [model, warnings] = read(brick + "*STEP, NLGEOM\n*STATIC\n0.1, 1.\n*BOUNDARY\n1, 1, 3\n2, 3, 3, 0.5\n*END STEP\n");
+  const auto [model, warnings] =
+      read(brick + "*STEP, NLGEOM\n*STATIC\n0.1, 1.\n*BOUNDARY\n1, 1, 3\n2, 3, 3, 0.5\n*END STEP\n");
   EXPECT_TRUE(warnings.empty());
   EXPECT_EQ(model.nodes.size(), 8);
   ASSERT_EQ(model.elements.size(), 1u);
@@ -25,7 +26,8 @@ TEST(DeckReader, BrickWithAStaticStep) {
 
 TEST(DeckReader, RigidBodyInAStepAttachesNodesToTheBodyOfTheModel) {
   const std::string body = "*NODE\n9, 0.5, 0.5, 3.\n*NSET, NSET=TOP\n5, 6, 7, 8\n*RIGID BODY, REF NODE=9\n";
-  const auto [model, warnings] = read(brick + body + "*STEP, NLGEOM\n*STATIC\n*RIGID BODY, REF NODE=9, TIE NSET=TOP\n*END STEP\n");
+  const auto [model, warnings] =
+      read(brick + body + "*STEP, NLGEOM\n*STATIC\n*RIGID BODY, REF NODE=9, TIE NSET=TOP\n*END STEP\n");
   ASSERT_EQ(model.rigid_bodies.size(), 1u);
   EXPECT_TRUE(model.rigid_bodies[0].tie_nodes.empty());
   ASSERT_EQ(model.steps[0].attachments.size(), 1u);

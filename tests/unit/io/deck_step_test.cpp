@@ -12,11 +12,15 @@ using test::brick;
 using test::errors_of;
 using test::read;
 
-std::vector<Step> steps_of(const std::string& deck) { return read(brick + deck).model.steps; }
+std::vector<Step> steps_of(const std::string& deck) {
+  return read(brick + deck).model.steps;
+}
 
 TEST(DeckStep, ConditionsPropagateUnlessNew) {
-  const auto steps = steps_of("*BOUNDARY\n1, PINNED\n*STEP\n*STATIC\n*BOUNDARY\n2, 1, , 0.5\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\n2, 1, , 0.7\n"
-                              "*END STEP\n*STEP\n*STATIC\n*BOUNDARY, OP=NEW, TYPE=VELOCITY\n3, 2, 2, 1.\n*BOUNDARY, FIXED\n4, 1\n*END STEP\n");
+  const auto steps = steps_of(
+      "*BOUNDARY\n1, PINNED\n*STEP\n*STATIC\n*BOUNDARY\n2, 1, , 0.5\n*END STEP\n*STEP\n*STATIC\n*BOUNDARY\n2, 1, , "
+      "0.7\n"
+      "*END STEP\n*STEP\n*STATIC\n*BOUNDARY, OP=NEW, TYPE=VELOCITY\n3, 2, 2, 1.\n*BOUNDARY, FIXED\n4, 1\n*END STEP\n");
   ASSERT_EQ(steps.size(), 3u);
   EXPECT_EQ(steps[0].boundary.size(), 4u);
   ASSERT_EQ(steps[1].boundary.size(), 4u);
@@ -29,14 +33,18 @@ TEST(DeckStep, ConditionsPropagateUnlessNew) {
 }
 
 TEST(DeckStep, NamedConditionsOnReferenceNodesHoldRotationsToo) {
-  const auto model = read(brick + "*NODE\n100\n*NSET, NSET=R\n1, 2\n*RIGID BODY, REF NODE=100, TIE NSET=R\n"
-                          "*STEP\n*STATIC\n*BOUNDARY\n100, ENCASTRE\n3, ZSYMM\n*END STEP\n").model;
+  const auto model = read(brick +
+                          "*NODE\n100\n*NSET, NSET=R\n1, 2\n*RIGID BODY, REF NODE=100, TIE NSET=R\n"
+                          "*STEP\n*STATIC\n*BOUNDARY\n100, ENCASTRE\n3, ZSYMM\n*END STEP\n")
+                         .model;
   EXPECT_EQ(model.steps[0].boundary.size(), 7u);  // six, and u3 of node 3, which has no rotations
 }
 
 TEST(DeckStep, LoadsStartWhereTheyStood) {
-  const auto steps = steps_of("*AMPLITUDE, NAME=HALF\n0., 0., 1., 0.5\n*STEP\n*STATIC\n*CLOAD, AMPLITUDE=HALF\n7, 3, 8.\n7, 3, 2.\n8, 3, 1.\n*END STEP\n"
-                              "*STEP\n*STATIC\n*CLOAD, OP=NEW\n7, 3, 3.\n*END STEP\n*STEP\n*STATIC\n*END STEP\n");
+  const auto steps = steps_of(
+      "*AMPLITUDE, NAME=HALF\n0., 0., 1., 0.5\n*STEP\n*STATIC\n*CLOAD, AMPLITUDE=HALF\n7, 3, 8.\n7, 3, 2.\n8, 3, "
+      "1.\n*END STEP\n"
+      "*STEP\n*STATIC\n*CLOAD, OP=NEW\n7, 3, 3.\n*END STEP\n*STEP\n*STATIC\n*END STEP\n");
   EXPECT_EQ(steps[0].concentrated_loads[0].magnitude, 10.0);  // two lines of one step add up
   ASSERT_EQ(steps[1].concentrated_loads.size(), 2u);
   EXPECT_EQ(steps[1].concentrated_loads[0].previous, 5.0);
@@ -58,28 +66,38 @@ TEST(DeckStep, PressureOnFacesAndGravity) {
 }
 
 TEST(DeckStep, PressureOnAMembraneActsAlongItsNormal) {
-  const auto model = read("*NODE\n1\n2, 1.\n3, 1., 1.\n4, 0., 1.\n*ELEMENT, TYPE=M3D4, ELSET=E\n1, 1, 2, 3, 4\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n"
-                          "*MEMBRANE SECTION, ELSET=E, MATERIAL=M\n0.1\n*STEP\n*STATIC\n*DLOAD\nE, P, 1.\n*END STEP\n").model;
+  const auto model = read(
+                         "*NODE\n1\n2, 1.\n3, 1., 1.\n4, 0., 1.\n*ELEMENT, TYPE=M3D4, ELSET=E\n1, 1, 2, 3, "
+                         "4\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n"
+                         "*MEMBRANE SECTION, ELSET=E, MATERIAL=M\n0.1\n*STEP\n*STATIC\n*DLOAD\nE, P, 1.\n*END STEP\n")
+                         .model;
   EXPECT_EQ(model.surfaces[0].faces[0].face, 1);  // SNEG
 }
 
 const std::string contact =
-    "*NODE\n100, 0., 0., -1.\n*SURFACE, NAME=BOTTOM\nALL, S1\n*SURFACE, TYPE=CYLINDER, NAME=ROAD\n0., 0., 0., 1., 0., 0.\n0., 1., 0.\n"
-    "START, -5., 0.\nLINE, 5., 0.\n*RIGID BODY, REF NODE=100, ANALYTICAL SURFACE=ROAD\n*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.5\n"
+    "*NODE\n100, 0., 0., -1.\n*SURFACE, NAME=BOTTOM\nALL, S1\n*SURFACE, TYPE=CYLINDER, NAME=ROAD\n0., 0., 0., 1., 0., "
+    "0.\n0., 1., 0.\n"
+    "START, -5., 0.\nLINE, 5., 0.\n*RIGID BODY, REF NODE=100, ANALYTICAL SURFACE=ROAD\n*SURFACE INTERACTION, "
+    "NAME=I\n*FRICTION\n0.5\n"
     "*CONTACT PAIR, INTERACTION=I\nBOTTOM, ROAD\n";
 
 TEST(DeckStep, ContactIsRemovedAndAddedAgain) {
-  const auto steps = steps_of(contact + "*STEP\n*STATIC\n*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nBOTTOM, ROAD\n*END STEP\n*STEP\n*STATIC\n*END STEP\n"
-                              "*STEP\n*DYNAMIC, EXPLICIT\n, 1.\n*CONTACT PAIR, INTERACTION=I, MECHANICAL CONSTRAINT=PENALTY\nBOTTOM, ROAD\n*END STEP\n");
+  const auto steps = steps_of(
+      contact +
+      "*STEP\n*STATIC\n*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nBOTTOM, ROAD\n*END STEP\n*STEP\n*STATIC\n*END STEP\n"
+      "*STEP\n*DYNAMIC, EXPLICIT\n, 1.\n*CONTACT PAIR, INTERACTION=I, MECHANICAL CONSTRAINT=PENALTY\nBOTTOM, "
+      "ROAD\n*END STEP\n");
   EXPECT_TRUE(steps[0].active_contact_pairs.empty());
   EXPECT_TRUE(steps[1].active_contact_pairs.empty());
   EXPECT_EQ(steps[2].active_contact_pairs, std::vector<std::int32_t>{0});
 }
 
 TEST(DeckStep, NodesAreAttachedAndReleased) {
-  const auto steps = steps_of("*NODE\n100\n*NSET, NSET=BEAD\n1, 2\n*RIGID BODY, REF NODE=100\n*STEP\n*STATIC\n*BOUNDARY\nBEAD, 3, 3, 0.1\n*END STEP\n"
-                              "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\n100, 1, 6\n*RIGID BODY, REF NODE=100, TIE NSET=BEAD\n*END STEP\n"
-                              "*STEP\n*STATIC\n*RIGID BODY, REF NODE=100, RELEASE NSET=BEAD\n*BOUNDARY\n1, 1\n*END STEP\n");
+  const auto steps = steps_of(
+      "*NODE\n100\n*NSET, NSET=BEAD\n1, 2\n*RIGID BODY, REF NODE=100\n*STEP\n*STATIC\n*BOUNDARY\nBEAD, 3, 3, 0.1\n*END "
+      "STEP\n"
+      "*STEP\n*STATIC\n*BOUNDARY, OP=NEW\n100, 1, 6\n*RIGID BODY, REF NODE=100, TIE NSET=BEAD\n*END STEP\n"
+      "*STEP\n*STATIC\n*RIGID BODY, REF NODE=100, RELEASE NSET=BEAD\n*BOUNDARY\n1, 1\n*END STEP\n");
   ASSERT_EQ(steps[1].attachments.size(), 1u);
   EXPECT_TRUE(steps[1].attachments[0].tie);
   EXPECT_FALSE(steps[1].attachments[0].release);
@@ -87,14 +105,18 @@ TEST(DeckStep, NodesAreAttachedAndReleased) {
 }
 
 TEST(DeckStep, ConditionLeftOnAnAttachedNodeIsRefused) {
-  const std::string errors = errors_of(brick + "*NODE\n100\n*NSET, NSET=BEAD\n1, 2\n*RIGID BODY, REF NODE=100\n*STEP\n*STATIC\n*BOUNDARY\nBEAD, 3\n*END STEP\n"
-                                       "*STEP\n*STATIC\n*RIGID BODY, REF NODE=100, TIE NSET=BEAD\n*END STEP\n");
+  const std::string errors = errors_of(
+      brick +
+      "*NODE\n100\n*NSET, NSET=BEAD\n1, 2\n*RIGID BODY, REF NODE=100\n*STEP\n*STATIC\n*BOUNDARY\nBEAD, 3\n*END STEP\n"
+      "*STEP\n*STATIC\n*RIGID BODY, REF NODE=100, TIE NSET=BEAD\n*END STEP\n");
   EXPECT_NE(errors.find("node 1 is carried by the rigid body"), std::string::npos) << errors;
 }
 
 TEST(DeckStep, DefaultsOfProceduresAndOutput) {
-  const auto steps = steps_of("*STEP\n*STATIC\n*END STEP\n*STEP\n*DYNAMIC, EXPLICIT\n, 2.\n*OUTPUT, FIELD, TIME INTERVAL=0.5\n*NODE OUTPUT\nU, RF\n"
-                              "*OUTPUT, HISTORY, FREQUENCY=0\n*END STEP\n");
+  const auto steps = steps_of(
+      "*STEP\n*STATIC\n*END STEP\n*STEP\n*DYNAMIC, EXPLICIT\n, 2.\n*OUTPUT, FIELD, TIME INTERVAL=0.5\n*NODE OUTPUT\nU, "
+      "RF\n"
+      "*OUTPUT, HISTORY, FREQUENCY=0\n*END STEP\n");
   EXPECT_EQ(steps[0].static_procedure.initial_increment, 1.0);
   EXPECT_DOUBLE_EQ(steps[0].static_procedure.minimum_increment, 1e-5);
   EXPECT_EQ(steps[0].field_outputs[0].frequency, 1);
@@ -108,9 +130,12 @@ TEST(DeckStep, DefaultsOfProceduresAndOutput) {
 }
 
 TEST(DeckStep, WhatAbaqusWritesByDefaultRuns) {
-  const auto result = read(brick + "*STEP, NAME=Step-1, NLGEOM=YES, INC=1000\n*STATIC\n0.1, 1., 1e-05, 1.\n*RESTART, WRITE, FREQUENCY=0\n"
-                           "*OUTPUT, FIELD\n*NODE OUTPUT\nCF, RF, U\n*ELEMENT OUTPUT, DIRECTIONS=YES\nLE, PE, PEEQ, PEMAG, S\n*CONTACT OUTPUT\n"
-                           "CDISP, CSTRESS\n*OUTPUT, HISTORY, VARIABLE=PRESELECT\n*END STEP\n");
+  const auto result =
+      read(brick +
+           "*STEP, NAME=Step-1, NLGEOM=YES, INC=1000\n*STATIC\n0.1, 1., 1e-05, 1.\n*RESTART, WRITE, FREQUENCY=0\n"
+           "*OUTPUT, FIELD\n*NODE OUTPUT\nCF, RF, U\n*ELEMENT OUTPUT, DIRECTIONS=YES\nLE, PE, PEEQ, PEMAG, S\n*CONTACT "
+           "OUTPUT\n"
+           "CDISP, CSTRESS\n*OUTPUT, HISTORY, VARIABLE=PRESELECT\n*END STEP\n");
   const auto& output = result.model.steps[0].field_outputs[0];
   EXPECT_EQ(output.node_variables, (std::vector<std::string>{"RF", "U"}));
   EXPECT_EQ(output.element_variables, (std::vector<std::string>{"LE", "S"}));
@@ -119,19 +144,28 @@ TEST(DeckStep, WhatAbaqusWritesByDefaultRuns) {
 }
 
 const std::string everything =
-    "*AMPLITUDE, NAME=TABLE\n0., 0., 0.1, 1.\n*AMPLITUDE, NAME=WAVE, DEFINITION=PERIODIC, TIME=TOTAL TIME\n1, 6.28, 0., 0.\n0., 1.\n"
+    "*AMPLITUDE, NAME=TABLE\n0., 0., 0.1, 1.\n*AMPLITUDE, NAME=WAVE, DEFINITION=PERIODIC, TIME=TOTAL TIME\n1, 6.28, "
+    "0., 0.\n0., 1.\n"
     "*ORIENTATION, NAME=LOCAL\n0., 1., 0., -1., 0., 0.\n3, 20.\n*TRANSFORM, NSET=ALLN, TYPE=C\n0., 0., 0., 0., 0., 1.\n"
-    "*MATERIAL, NAME=\"SOFT RUBBER\"\n*HYPERELASTIC, MOONEY-RIVLIN\n0.4, 0.1, 0.02\n*DENSITY\n1.1E-9\n*DAMPING, ALPHA=3., BETA=1E-5\n"
-    "*ELEMENT, TYPE=M3D4, ELSET=SKIN\n10, 5, 6, 7, 8\n*MEMBRANE SECTION, ELSET=SKIN, COMPOSITE, ORIENTATION=LOCAL\n0.5, , STEEL, 20.\n0.25, , STEEL, -20.\n"
-    "*ELEMENT, TYPE=MASS, ELSET=HUB\n20, 100\n*MASS, ELSET=HUB\n3.5\n*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nALLN, 0.5, 1., 0., 0.\n0., 0., 0., 0., 1., 0.\n"
+    "*MATERIAL, NAME=\"SOFT RUBBER\"\n*HYPERELASTIC, MOONEY-RIVLIN\n0.4, 0.1, 0.02\n*DENSITY\n1.1E-9\n*DAMPING, "
+    "ALPHA=3., BETA=1E-5\n"
+    "*ELEMENT, TYPE=M3D4, ELSET=SKIN\n10, 5, 6, 7, 8\n*MEMBRANE SECTION, ELSET=SKIN, COMPOSITE, "
+    "ORIENTATION=LOCAL\n0.5, , STEEL, 20.\n0.25, , STEEL, -20.\n"
+    "*ELEMENT, TYPE=MASS, ELSET=HUB\n20, 100\n*MASS, ELSET=HUB\n3.5\n*INITIAL CONDITIONS, TYPE=ROTATING "
+    "VELOCITY\nALLN, 0.5, 1., 0., 0.\n0., 0., 0., 0., 1., 0.\n"
     "*INITIAL CONDITIONS, TYPE=VELOCITY\nALLN, 2, 3.\n*TIME POINTS, NAME=WHEN\n0.1, 0.5, 1.\n";
 
 const std::string everything_steps =
-    "*STEP, NAME=ONE, NLGEOM\n*STATIC, STABILIZE=1E-4\n0.1, 1., 1E-6, 0.5\n*CONTROLS, PARAMETERS=TIME INCREMENTATION\n, , , 30\n"
-    "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nBOTTOM, ROAD\n*BOUNDARY, AMPLITUDE=TABLE\n7, 1, 2, 0.3\n*BOUNDARY\n100, 1, 6\n*CLOAD\n8, 3, 2.\n*DSLOAD\nBOTTOM, P, 0.2\n"
-    "*RESTART, WRITE, FREQUENCY=5\n*OUTPUT, FIELD, TIME POINTS=WHEN, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT, POSITION=INTEGRATION POINTS\nS\n"
-    "*END STEP\n*STEP, NAME=TWO\n*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n1E-7, 1E-5\n*BULK VISCOSITY\n0.1, 0.\n*MODEL CHANGE, TYPE=CONTACT PAIR, ADD\nBOTTOM, ROAD\n"
-    "*BOUNDARY, OP=NEW\n100, 2, 6\n*BOUNDARY, OP=NEW, TYPE=VELOCITY\n100, 1, 1, 11.\n*CLOAD, OP=NEW\n*DLOAD\nALL, GRAV, 9810., 0., 0., -1.\n*OUTPUT, HISTORY, FREQUENCY=10\n"
+    "*STEP, NAME=ONE, NLGEOM\n*STATIC, STABILIZE=1E-4\n0.1, 1., 1E-6, 0.5\n*CONTROLS, PARAMETERS=TIME "
+    "INCREMENTATION\n, , , 30\n"
+    "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nBOTTOM, ROAD\n*BOUNDARY, AMPLITUDE=TABLE\n7, 1, 2, 0.3\n*BOUNDARY\n100, "
+    "1, 6\n*CLOAD\n8, 3, 2.\n*DSLOAD\nBOTTOM, P, 0.2\n"
+    "*RESTART, WRITE, FREQUENCY=5\n*OUTPUT, FIELD, TIME POINTS=WHEN, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*ELEMENT "
+    "OUTPUT, POSITION=INTEGRATION POINTS\nS\n"
+    "*END STEP\n*STEP, NAME=TWO\n*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n1E-7, 1E-5\n*BULK VISCOSITY\n0.1, 0.\n*MODEL "
+    "CHANGE, TYPE=CONTACT PAIR, ADD\nBOTTOM, ROAD\n"
+    "*BOUNDARY, OP=NEW\n100, 2, 6\n*BOUNDARY, OP=NEW, TYPE=VELOCITY\n100, 1, 1, 11.\n*CLOAD, OP=NEW\n*DLOAD\nALL, "
+    "GRAV, 9810., 0., 0., -1.\n*OUTPUT, HISTORY, FREQUENCY=10\n"
     "*NODE OUTPUT, NSET=ALLN\nU3, RF\n*CONTACT OUTPUT\n*ENERGY OUTPUT\nALLKE, ETOTAL\n*END STEP\n";
 
 TEST(DeckWriter, WhatIsWrittenReadsBackTheSame) {

@@ -10,12 +10,16 @@
 namespace balocco::test {
 
 /// Reads a deck from memory; `files` are what it may include.
-inline ReadResult read(const std::string& deck, std::map<std::string, std::string> files = {}, const ReadOptions& options = {}) {
+inline ReadResult read(const std::string& deck, std::map<std::string, std::string> files = {},
+                       const ReadOptions& options = {}) {
   files["job.inp"] = deck;
-  return read_deck("job.inp", [files](const std::string& path) -> std::optional<std::string> {
-    const auto found = files.find(path);
-    return found == files.end() ? std::nullopt : std::optional(found->second);
-  }, options);
+  return read_deck(
+      "job.inp",
+      [files](const std::string& path) -> std::optional<std::string> {
+        const auto found = files.find(path);
+        return found == files.end() ? std::nullopt : std::optional(found->second);
+      },
+      options);
 }
 
 /// The errors of a bad deck, one a line; "" if it was accepted.

@@ -50,10 +50,13 @@ TEST(DeckDigest, Sha256) {
 }
 
 TEST(DeckSyntax, CommentsCaseBlanksAndLineEnds) {
-  const auto model = read(
-      "*Heading\r\n** a comment\r\nTitle\r\n*node,nset = \"left end\"\r\n 1 , 0.D0, 0., 0.\r\n** between\r\n\r\n2,1.0E+00\r\n"
-      "*Element, type=t3d2,\r\n elset=Bars\r\n1, 1, 2\r\n*solidsection,elset=BARS,\r\nmaterial=steel\r\n2.\r\n"
-      "*MATERIAL,NAME=Steel\r\n*ELASTIC\r\n1.,.3\r\n").model;
+  const auto model =
+      read(
+          "*Heading\r\n** a comment\r\nTitle\r\n*node,nset = \"left end\"\r\n 1 , 0.D0, 0., 0.\r\n** "
+          "between\r\n\r\n2,1.0E+00\r\n"
+          "*Element, type=t3d2,\r\n elset=Bars\r\n1, 1, 2\r\n*solidsection,elset=BARS,\r\nmaterial=steel\r\n2.\r\n"
+          "*MATERIAL,NAME=Steel\r\n*ELASTIC\r\n1.,.3\r\n")
+          .model;
   EXPECT_EQ(model.heading, "Title");
   ASSERT_EQ(model.nodes.size(), 2);
   EXPECT_EQ(model.nodes.coordinates[1], (Point{1.0, 0.0, 0.0}));
@@ -71,9 +74,11 @@ TEST(DeckSyntax, ConnectivityRunsOverLines) {
 }
 
 TEST(DeckSyntax, IncludesCountFromTheIncludingFile) {
-  const auto model = read("*INCLUDE, INPUT=parts/mesh.inc\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=E, MATERIAL=M\n",
-                          {{"parts/mesh.inc", "*NODE\n1, 0.\n2, 1.\n*INCLUDE, INPUT=bars.inc\n"},
-                           {"parts/bars.inc", "*ELEMENT, TYPE=T3D2, ELSET=E\n1, 1, 2\n"}}).model;
+  const auto model =
+      read("*INCLUDE, INPUT=parts/mesh.inc\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=E, MATERIAL=M\n",
+           {{"parts/mesh.inc", "*NODE\n1, 0.\n2, 1.\n*INCLUDE, INPUT=bars.inc\n"},
+            {"parts/bars.inc", "*ELEMENT, TYPE=T3D2, ELSET=E\n1, 1, 2\n"}})
+          .model;
   EXPECT_EQ(model.files, (std::vector<std::string>{"job.inp", "parts/mesh.inc", "parts/bars.inc"}));
   EXPECT_EQ(model.where(model.elements[0].location[0]), "parts/bars.inc:2");
 }
@@ -116,10 +121,12 @@ TEST(DeckErrors, IndependentErrorsAreAllTold) {
 
 TEST(DeckErrors, ConsequencesAreNotTold) {
   // The misspelt element block leaves sets, surfaces and sections without elements; only the cause is told.
-  std::string deck = brick + "*SURFACE, NAME=TOP\nALL, S2\n*ELSET, ELSET=ONE\n1\n*STEP\n*STATIC\n*DSLOAD\nTOP, P, 1.\n*END STEP\n";
+  std::string deck =
+      brick + "*SURFACE, NAME=TOP\nALL, S2\n*ELSET, ELSET=ONE\n1\n*STEP\n*STATIC\n*DSLOAD\nTOP, P, 1.\n*END STEP\n";
   deck.replace(deck.find("*ELEMENT"), 8, "*ELEMNET");
   const std::string errors = errors_of(deck);
-  EXPECT_TRUE(errors.starts_with("job.inp:12: error: *ELEMNET: this keyword is unknown or not supported; did you mean *ELEMENT?"));
+  EXPECT_TRUE(errors.starts_with(
+      "job.inp:12: error: *ELEMNET: this keyword is unknown or not supported; did you mean *ELEMENT?"));
   EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1) << errors;
 }
 

@@ -1,0 +1,26 @@
+// Output requests for files that Balocco does not write: accepted with a warning, because they cannot change results.
+#include "deck/register.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+/// Requests for printed tables and the old results file: there is no such file here.
+KeywordRule old_request(const char* keyword) {
+  return {.keyword = keyword,
+          .place = Place::anywhere,
+          .warning =
+              "asks for a file that Balocco does not write; results go to the HDF5 "
+              "file: use *OUTPUT",
+          .any_parameter = true};
+}
+
+const RegisterKeyword file_format{old_request("FILE FORMAT")}, node_print{old_request("NODE PRINT")},
+    el_print{old_request("EL PRINT")}, node_file{old_request("NODE FILE")}, el_file{old_request("EL FILE")},
+    monitor{old_request("MONITOR")}, contact_print{old_request("CONTACT PRINT")},
+    contact_file{old_request("CONTACT FILE")}, energy_print{old_request("ENERGY PRINT")},
+    energy_file{old_request("ENERGY FILE")}, section_print{old_request("SECTION PRINT")};
+
+}  // namespace
+
+}  // namespace balocco::deck
