@@ -87,10 +87,11 @@ class ThinLawOf final : public Law<kind> {
     for (int first = 0; first < points.count; first += pack_size) {
       std::array<Pack, n> strain;
       for (int k = 0; k < n; ++k) strain[k] = load(&points.strain[k][first]);
-      const std::array<Pack, n> stress = formulas_.stress(strain);
+      const auto point = formulas_.prepare(strain);
+      const std::array<Pack, n> stress = formulas_.stress(point);
       for (int k = 0; k < n; ++k) store(stress[k], &points.stress[k][first]);
       store(Pack(0.0), &points.volumetric_modulus[first]);
-      store(formulas_.bound(strain), &points.shear_modulus[first]);
+      store(formulas_.bound(point), &points.shear_modulus[first]);
     }
   }
 
@@ -98,7 +99,7 @@ class ThinLawOf final : public Law<kind> {
                std::span<double, n * n> stiffness) const override {
     std::array<Dual<n>, n> variables;
     for (int k = 0; k < n; ++k) variables[k] = Dual<n>(strain[k], k);
-    const std::array<Dual<n>, n> result = formulas_.stress(variables);
+    const std::array<Dual<n>, n> result = formulas_.stress(formulas_.prepare(variables));
     for (int i = 0; i < n; ++i) {
       stress[i] = result[i].value;
       for (int j = 0; j < n; ++j) stiffness[n * i + j] = result[i].derivative[j];

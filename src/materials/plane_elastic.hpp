@@ -35,6 +35,10 @@ struct PlaneElastic {
   }
 
   template <class T>
+  const std::array<T, 3>& prepare(const std::array<T, 3>& strain) const {
+    return strain;
+  }
+  template <class T>
   std::array<T, 3> stress(const std::array<T, 3>& strain) const {
     return {q11 * strain[0] + q12 * strain[1], q12 * strain[0] + q22 * strain[1], q33 * strain[2]};
   }
@@ -60,6 +64,10 @@ struct PlaneElastic {
 struct LineElastic {
   double young, poisson;
 
+  template <class T>
+  const std::array<T, 1>& prepare(const std::array<T, 1>& strain) const {
+    return strain;
+  }
   template <class T>
   std::array<T, 1> stress(const std::array<T, 1>& strain) const {
     return {young * strain[0]};

@@ -41,7 +41,7 @@ struct RubberPlane {
   };
 
   template <class T>
-  Point<T> solve(const std::array<T, 3>& strain) const {
+  Point<T> prepare(const std::array<T, 3>& strain) const {
     Point<T> p;
     p.c11 = 1.0 + 2.0 * strain[0];
     p.c22 = 1.0 + 2.0 * strain[1];
@@ -70,8 +70,7 @@ struct RubberPlane {
 
   /// S = 2 C10 J^-2/3 (I - c C^-1) + 2 C01 J^-4/3 (c I + (D - c tr C) C^-1), c = C33, D = det C in the plane.
   template <class T>
-  std::array<T, 3> stress(const std::array<T, 3>& strain) const {
-    const Point<T> p = solve(strain);
+  std::array<T, 3> stress(const Point<T>& p) const {
     const T along = p.first + p.second * p.c33;
     const T inverse = (p.second * (p.determinant - p.c33 * p.trace) - p.first * p.c33) / p.determinant;
     return {along + inverse * p.c22, along + inverse * p.c11, -(inverse * p.c12)};
@@ -82,15 +81,14 @@ struct RubberPlane {
   //   A = tr C,
   // and tr dE = x / m + y with m = tr(C^-1) / 2, |y| <= r |dE|, r = |I - C^-1 / m|.
   template <class T>
-  T bound(const std::array<T, 3>& strain) const {
-    const Point<T> p = solve(strain);
+  T bound(const Point<T>& p) const {
     const T inverse = 1.0 / p.determinant;
     const T half_trace = 0.5 * (p.trace * inverse);
     const T radius_square = maximum(half_trace * half_trace - inverse, T(0.0));
     const T radius = square_root(radius_square);
     const T largest = half_trace + radius, n = largest * largest,
             norm = 2.0 * (half_trace * half_trace + radius_square);
-    const T skew = square_root(T(2.0)) * radius / half_trace;
+    const T skew = 1.4142135623730951 * radius / half_trace;
     const T size = absolute(p.second), c_trace = p.c33 * p.trace;
     const T quadratic = maximum(p.determinant + c_trace - 2.0 * (p.c33 / half_trace), T(0.0)) + p.c33 * skew;
     return p.first * p.c33 * (n + norm) +
@@ -98,14 +96,14 @@ struct RubberPlane {
   }
 
   double energy(const std::array<double, 3>& strain) const {
-    const Point<double> p = solve(strain);
+    const Point<double> p = prepare(strain);
     const double i1 = p.trace + p.c33, i2 = p.determinant + p.c33 * p.trace;
     const double root = inverse_cube_root(p.jacobian), j2 = root * root, change = p.jacobian - 1.0;
     return constants.c10 * (i1 * j2 - 3.0) + constants.c01 * (i2 * j2 * j2 - 3.0) +
            0.5 * constants.bulk * change * change;
   }
 
-  double transverse_stretch(const std::array<double, 3>& strain) const { return square_root(solve(strain).c33); }
+  double transverse_stretch(const std::array<double, 3>& strain) const { return square_root(prepare(strain).c33); }
 };
 
 struct RubberLine {
@@ -117,9 +115,9 @@ struct RubberLine {
   };
 
   template <class T>
-  Point<T> solve(const T& strain) const {
+  Point<T> prepare(const std::array<T, 1>& strain) const {
     Point<T> p;
-    p.axial = 1.0 + 2.0 * strain;
+    p.axial = 1.0 + 2.0 * strain[0];
     const T inverse_stretch = 1.0 / square_root(p.axial);
     // C22 S22 / 2 = 0 with C22 = J / sqrt(C11)
     p.jacobian = solve_volume_ratio<T>([&](const T& j) {
@@ -141,29 +139,27 @@ struct RubberLine {
   }
 
   template <class T>
-  std::array<T, 1> stress(const std::array<T, 1>& strain) const {
-    const Point<T> p = solve(strain[0]);
+  std::array<T, 1> stress(const Point<T>& p) const {
     return {(p.first + p.second * p.transverse) * ((p.axial - p.transverse) / p.axial)};
   }
 
   // Half of dS/dE at fixed J: dC22/dC11 = -C22 / (2 C11).
   template <class T>
-  T bound(const std::array<T, 1>& strain) const {
-    const Point<T> p = solve(strain[0]);
+  T bound(const Point<T>& p) const {
     const T ratio = p.transverse / p.axial;
     const T mooney = 2.0 * (ratio * ratio) - 0.5 * ratio;
     return 1.5 * (p.first * (ratio / p.axial)) + absolute(p.second * mooney);
   }
 
   double energy(const std::array<double, 1>& strain) const {
-    const Point<double> p = solve(strain[0]);
+    const Point<double> p = prepare(strain);
     const double i1 = p.axial + 2.0 * p.transverse, i2 = p.transverse * (p.transverse + 2.0 * p.axial);
     const double root = inverse_cube_root(p.jacobian), j2 = root * root, change = p.jacobian - 1.0;
     return constants.c10 * (i1 * j2 - 3.0) + constants.c01 * (i2 * j2 * j2 - 3.0) +
            0.5 * constants.bulk * change * change;
   }
 
-  double transverse_stretch(const std::array<double, 1>& strain) const { return solve(strain[0]).transverse; }
+  double transverse_stretch(const std::array<double, 1>& strain) const { return prepare(strain).transverse; }
 };
 
 }  // namespace balocco
