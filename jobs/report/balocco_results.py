@@ -14,6 +14,11 @@ def _number(name):
     return int(name.rsplit("_", 1)[1])
 
 
+def text(attribute):
+    """A string attribute: fixed-length ones arrive as bytes."""
+    return attribute.decode() if isinstance(attribute, bytes) else str(attribute)
+
+
 class Frame:
     """Variables at one instant: node("U") (n, 3), element("C3D8R", "S") (n, 6)."""
 
@@ -33,8 +38,8 @@ class Frame:
 class Step:
     def __init__(self, group):
         self._group = group
-        self.name = group.attrs["name"].decode() if isinstance(group.attrs["name"], bytes) else str(group.attrs["name"])
-        self.procedure = str(group.attrs["procedure"])
+        self.name = text(group.attrs["name"])
+        self.procedure = text(group.attrs["procedure"])
         self.completed = bool(group.attrs["completed"])
         self.time_start = float(group.attrs["time_start"])
         names = sorted((name for name in group if name.startswith("frame_")), key=_number)
@@ -83,8 +88,8 @@ class Results:
         self.surfaces = {name: Surface(group) for name, group in mesh.get("analytical_surface", {}).items()}
         names = sorted((name for name in self.file if name.startswith("step_")), key=_number)
         self.steps = [Step(self.file[name]) for name in names]
-        self.name = str(self.file.attrs["name"])
-        self.units = str(self.file.attrs["units"]).split()
+        self.name = text(self.file.attrs["name"])
+        self.units = text(self.file.attrs["units"]).split()
 
     def row(self, node_id):
         return int(np.flatnonzero(self.node_ids == node_id)[0])
