@@ -229,7 +229,7 @@ void read_rolling_and_output(SpecTable& top, TyreSpec& spec) {
   auto table = top.table("rolling");
   auto& rolling = spec.rolling;
   rolling.enabled = table.boolean("enabled", true);
-  rolling.speed = table.number("speed", Bounds::positive("mm/ms"));
+  rolling.speed = table.number("speed", Bounds::not_negative("mm/ms"));
   if (table.has("rolling_radius")) rolling.rolling_radius = table.number("rolling_radius", Bounds::positive("mm"));
   rolling.settle_duration = table.number("settle_duration", Bounds::not_negative("ms"), 0.0);
   rolling.duration = table.number("duration", Bounds::positive("ms"));
