@@ -67,6 +67,14 @@ void Writer::contact_changes(std::size_t row) {
   }
 }
 
+/// Behind the last of the conditions that differ from the first in nothing but the node.
+Conditions end_of_run(Conditions first, Conditions end) {
+  return std::find_if(first, end, [&](const BoundaryCondition& c) {
+    return c.kind != first->kind || c.dof != first->dof || c.magnitude != first->magnitude || c.fixed != first->fixed ||
+           c.amplitude != first->amplitude || c.propagated != first->propagated;
+  });
+}
+
 /// Conditions are stated in the step in which they are new. Where earlier ones were taken away, all are stated afresh.
 void Writer::boundary(std::size_t row) {
   const auto& conditions = model_.steps[row].boundary;
@@ -82,18 +90,34 @@ void Writer::boundary(std::size_t row) {
                      !std::all_of(previous->boundary.begin(), previous->boundary.end(), still_there);
   if (renew) line("*BOUNDARY, OP=NEW");
   std::string header;
-  for (const auto& c : conditions) {
-    if (c.propagated && !renew) continue;
-    const std::string wanted = fmt::format("*BOUNDARY{}{}{}{}", renew ? ", OP=NEW" : "", type_of(c.kind),
-                                           c.fixed ? ", FIXED" : "", amplitude_parameter(c.amplitude));
+  for (auto c = conditions.begin(); c != conditions.end();) {
+    const auto end = end_of_run(c, conditions.end());
+    if (c->propagated && !renew) {
+      c = end;
+      continue;
+    }
+    const std::string wanted = fmt::format("*BOUNDARY{}{}{}{}", renew ? ", OP=NEW" : "", type_of(c->kind),
+                                           c->fixed ? ", FIXED" : "", amplitude_parameter(c->amplitude));
     if (wanted != header) line("{}", wanted);
     header = wanted;
-    if (c.fixed) {
-      line("{}, {}, {}", node_id(c.node), c.dof + 1, c.dof + 1);
+    const std::string value = c->fixed ? "" : fmt::format(", {}", c->magnitude);
+    if (const auto* set = set_of(c, end)) {
+      line("{}, {}, {}{}", quoted(set->name), c->dof + 1, c->dof + 1, value);
+      c = end;
     } else {
-      line("{}, {}, {}, {}", node_id(c.node), c.dof + 1, c.dof + 1, c.magnitude);
+      for (; c != end; ++c) line("{}, {}, {}{}", node_id(c->node), c->dof + 1, c->dof + 1, value);
     }
   }
+}
+
+/// The node set whose nodes, in their order, are those of a run of at least two conditions; nullptr: none.
+const NodeSet* Writer::set_of(Conditions first, Conditions end) const {
+  if (end - first < 2) return nullptr;
+  const auto found = std::find_if(model_.node_sets.begin(), model_.node_sets.end(), [&](const NodeSet& set) {
+    return std::equal(set.nodes.begin(), set.nodes.end(), first, end,
+                      [](std::int32_t node, const BoundaryCondition& c) { return node == c.node; });
+  });
+  return found == model_.node_sets.end() ? nullptr : &*found;
 }
 
 void Writer::loads(const Step& step) {

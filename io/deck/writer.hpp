@@ -13,6 +13,8 @@ namespace balocco::deck {
 /// Quotes a name that holds blanks or commas.
 std::string quoted(const std::string& name);
 
+using Conditions = std::vector<BoundaryCondition>::const_iterator;
+
 class Writer {
  public:
   explicit Writer(const Model& model) : model_(model) {}
@@ -51,6 +53,7 @@ class Writer {
   void controls(const Step& step, const StaticControls& before);
   void contact_changes(std::size_t row);
   void boundary(std::size_t row);
+  const NodeSet* set_of(Conditions first, Conditions end) const;
   void loads(const Step& step);
   void attachments(const Step& step);
   void field_output(const FieldOutput& output, std::size_t step, std::size_t number);

@@ -117,11 +117,10 @@ class StepAuthor {
     auto step = static_step("SEAT", 0.25, 0.5);
     step.static_procedure.stabilize = spec_.statics.stabilize;
     for (const auto& [name, side] : {std::pair{"BEAD_LEFT", 1.0}, std::pair{"BEAD_RIGHT", -1.0}}) {
-      for (const auto node : nodes_of(model_, name)) {
-        step.boundary.push_back(held(node, 0, false));
-        step.boundary.push_back(moved(node, 1, -side * section_.seat_shift));
-        step.boundary.push_back(held(node, 2, false));
-      }
+      const auto& nodes = nodes_of(model_, name);
+      for (const auto node : nodes) step.boundary.push_back(held(node, 0, false));
+      for (const auto node : nodes) step.boundary.push_back(moved(node, 1, -side * section_.seat_shift));
+      for (const auto node : nodes) step.boundary.push_back(held(node, 2, false));
     }
     hold(step, rig_.hub, false);
     hold(step, rig_.road, false);
