@@ -186,25 +186,20 @@ void add_solids(const TyreSpec& spec, const TyreSection& section, Model& model, 
   model.surfaces.push_back(std::move(contact));
 }
 
-/// The bundle of wires lies between the plies: half of its area on each side of the apex.
 void add_bead_wires(const TyreSpec& spec, const TyreSection& section, Model& model, TyreMesh& mesh) {
   const auto steel = add_material(model, {.name = "BEAD_STEEL",
                                           .density = spec.bead.density,
                                           .law = "elastic",
                                           .parameters = {spec.bead.modulus, spec.bead.poisson}});
-  const auto row = add_section(
-      model,
-      {.kind = Section::Kind::truss, .element_set = "BEAD_WIRE", .material = steel, .area = 0.5 * spec.bead.area});
+  const double share = 2.0 * spec.bead.area / static_cast<double>(section.wire_nodes.size());
+  const auto row =
+      add_section(model, {.kind = Section::Kind::truss, .element_set = "BEAD_WIRE", .material = steel, .area = share});
   mesh.wires = add_element_table(model, "T3D2");
   std::vector<ElementRef> wires;
-  for (const int position : {spec.bead.row, section.line_size() - 1 - spec.bead.row}) {
-    for (const int layer : {0, 1}) {
-      const int node = section.layers[layer][position];
-      for (int sector = 0; sector < mesh.sectors(); ++sector)
-        wires.push_back(
-            {mesh.wires, add_element(model, mesh.wires, {mesh.node(sector, node), mesh.node(sector + 1, node)}, row)});
-    }
-  }
+  for (const int node : section.wire_nodes)
+    for (int sector = 0; sector < mesh.sectors(); ++sector)
+      wires.push_back(
+          {mesh.wires, add_element(model, mesh.wires, {mesh.node(sector, node), mesh.node(sector + 1, node)}, row)});
   add_element_set(model, "BEAD_WIRE", std::move(wires));
 }
 

@@ -145,6 +145,24 @@ void find_rim_contact(const TyreSpec& spec, TyreSection& section) {
   section.seat_shift = heel - 0.5 * spec.rim.width;
 }
 
+/// The wires lie between the plies: on both sides of the apex, over the height of their bundle.
+void find_wires(const TyreSpec& spec, TyreSection& section) {
+  const auto& line = section.layers[0];
+  const double toe = section.nodes[line[0]][0];
+  for (int j = 1; j + 1 < section.line_size(); ++j) {
+    const double height = section.nodes[line[j]][0] - toe;
+    if (height < spec.bead.bottom || height > spec.bead.top) continue;
+    if (section.line_regions[j - 1] != Region::bead && section.line_regions[j] != Region::bead) continue;
+    for (const int layer : {0, 1}) section.wire_nodes.push_back(section.layers[layer][j]);
+  }
+  if (section.wire_nodes.empty())
+    throw InputError(
+        fmt::format("{}:1: error: [bead_wire] bottom: no node of the line lies between {} and {} mm above the toe; "
+                    "widen the range or "
+                    "raise elements in [section.bead]",
+                    spec.file_name, spec.bead.bottom, spec.bead.top));
+}
+
 /// Sidewall rubber of the described section whatever the model, spread evenly over the line.
 double mean_sidewall_thickness(const MeridianLine& line, const Division& half) {
   double volume = 0.0, area = 0.0;
@@ -183,6 +201,7 @@ TyreSection make_section(const TyreSpec& spec) {
   add_nodes(spec, line, half, section);
   add_quads(spec, section);
   find_rim_contact(spec, section);
+  find_wires(spec, section);
   section.sidewall_rubber = mean_sidewall_thickness(line, half);
   return section;
 }

@@ -24,6 +24,7 @@ struct TyreSection {
   std::vector<Region> line_regions;  // of each membrane, from axial < 0 over the crown to axial > 0
   std::vector<SectionQuad> quads;
   std::vector<int> bead_right, bead_left;  // nodes that touch the rim, at axial < 0 and > 0; sorted
+  std::vector<int> wire_nodes;             // nodes that share the wires of one bead each, both beads
   double seat_shift = 0.0;       // axial distance by which each bead moves inwards to the rim, mm (negative: outwards)
   double sidewall_rubber = 0.0;  // mean thickness of the sidewall rubber, mm
 

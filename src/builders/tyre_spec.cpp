@@ -165,7 +165,9 @@ void read_bead_and_rim(SpecTable& top, TyreSpec& spec) {
   spec.bead.modulus = bead.number("modulus", Bounds::positive("MPa"));
   spec.bead.poisson = bead.number("poisson", Bounds::between(0.0, 0.499, ""), 0.3);
   spec.bead.density = bead.number("density", Bounds::positive("g/mm3"));
-  spec.bead.row = bead.integer("row", 1, std::max(1, spec.region(Region::bead).elements), 1);
+  spec.bead.bottom = bead.number("bottom", Bounds::not_negative("mm"));
+  spec.bead.top = bead.number("top", Bounds::positive("mm"));
+  if (spec.bead.top <= spec.bead.bottom) bead.fault("top", "not above the bottom; give the bundle a height");
   bead.refuse_unknown();
 
   auto rim = top.table("rim");

@@ -65,7 +65,7 @@ struct RegionSpec {
 struct BeadSpec {
   double area = 0.0;  // mm2 of wire a side
   double modulus = 0.0, poisson = 0.0, density = 0.0;
-  int row = 1;  // line node that carries the wire, counted from the toe
+  double bottom = 0.0, top = 0.0;  // mm above the toe between which the bundle of wires lies
 };
 
 struct RimSpec {

@@ -64,6 +64,8 @@ turn_up = ["body"]
 rim_strip_top = 2.5
 [bead_wire]
 area = 35.0
+bottom = 5.0
+top = 13.0
 modulus = 200000.0
 density = 7.85e-3
 [rim]

@@ -105,6 +105,11 @@ TEST(TyreSection, RefusesRubberThatFoldsOverItself) {
                InputError);
 }
 
+TEST(TyreSection, TellsWhenNoNodeCanCarryTheBeadWire) {
+  std::string report;
+  EXPECT_THROW(build_tyre(sample_with("top = 13.0", "top = 5.1"), "t.toml", report), InputError);
+}
+
 TEST(TyreMesh, MembranesCloseAroundTheTyreWithNormalsOutwards) {
   const auto built = build(3);
   const auto& membranes = built.model.elements[built.mesh.membranes];
@@ -200,10 +205,9 @@ TEST(TyreMesh, MassIsThatOfTheBodyOfRevolution) {
       outside.layers = {{0, 1}};
       revolved += body_density(Region::bead) * revolved_area(outside, 0);
     }
-    for (const int layer : {0, 1}) {
-      const double wire_radius = built.section.nodes[built.section.layers[layer][1]][0];
-      revolved += 2.0 * 17.5 * 7.85e-3 * 2.0 * std::numbers::pi * wire_radius;
-    }
+    ASSERT_EQ(built.section.wire_nodes.size(), 4u);  // one height, both sides of both apexes
+    for (const int node : built.section.wire_nodes)
+      revolved += 17.5 * 7.85e-3 * 2.0 * std::numbers::pi * built.section.nodes[node][0];
     EXPECT_NEAR(meshed / revolved, 1.0, 0.01) << "model " << number;
   }
 }
