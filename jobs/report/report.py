@@ -99,6 +99,19 @@ def column(history, name):
     return None
 
 
+def inflated_figures(run, figures):
+    """Dimensions of the tyre at the end of the step named INFLATE: all nodes but the hub's and the road's."""
+    step = next((step for step in run.static if step.name == "INFLATE"), None)
+    displacement = step.frames[-1].node("U") if step is not None and step.frames else None
+    if displacement is None:
+        return
+    tyre = ~np.isin(np.arange(len(displacement)), [run.results.row(node) for node in (run.hub, run.road) if node is not None])
+    hub = run.results.coordinates[run.results.row(run.hub)]
+    position = (run.results.coordinates + displacement)[tyre] - hub
+    figures["inflated section width (mm)"] = float(np.ptp(position[:, 1]))
+    figures["inflated outer diameter (mm)"] = 2.0 * float(np.hypot(position[:, 0], position[:, 2]).max())
+
+
 def static_figures(run, folder, figures):
     """Load against deflection over the static steps in which the road touches the tyre."""
     hub, road = run.hub_history(run.static), run.road_history(run.static)
@@ -168,7 +181,7 @@ def force_figures(time, axis, obstacle, forces, cutoff, figures):
     over = ~before
     inner = np.flatnonzero(over)[1:-1]
     peaks = [i for i in inner if low[i] >= low[i - 1] and low[i] > low[i + 1] and low[i] > 0.25 * low[over].max()]
-    for number, peak in enumerate(sorted(sorted(peaks, key=lambda i: -low[i])[:2]), 1):
+    for number, peak in enumerate(peaks, 1):
         figures[f"dFz peak {number} (N)"] = float(low[peak])
         figures[f"dFz peak {number} at distance (mm)"] = float(axis[peak])
     along = smooth(time, forces["Fx"], cutoff) - float(forces["Fx"][settled].mean())
@@ -271,6 +284,7 @@ def main(arguments):
     os.makedirs(options.output, exist_ok=True)
     run = Run(options.results, options.hub, options.road)
     figures = {}
+    inflated_figures(run, figures)
     static_figures(run, options.output, figures)
     footprint(run, options.output, figures)
     rolling_figures(run, options.output, options.cutoff, figures)
