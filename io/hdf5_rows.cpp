@@ -118,6 +118,7 @@ ParallelFile::ParallelFile(const std::string& path, const Communicator& communic
   silence_hdf5();
   const Hdf5Id access(H5Pcreate(H5P_FILE_ACCESS));
   H5Pset_fapl_mpio(access, communicator.handle(), MPI_INFO_NULL);
+  H5Pset_file_locking(access, false, true);  // somebody who looks at the results must not stop the job
   if (mode == Mode::create) {
     file_ = Hdf5Id(H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access));
   } else {
