@@ -17,8 +17,7 @@ namespace balocco {
 
 namespace {
 
-constexpr double seconds_between_polls = 0.5;      // how soon a signal is noticed in an explicit step
-constexpr double seconds_between_controls = 1.0;   // how often JOB.ctl is looked for
+constexpr double seconds_between_polls = 0.2;      // how soon a signal or JOB.ctl is noticed in an explicit step
 constexpr double seconds_between_flushes = 30.0;   // how much history a kill may cost
 constexpr std::int32_t status_lines = 100;         // per explicit step
 
@@ -126,7 +125,7 @@ void JobObserver::Implementation::start(const ResultSource& running, std::int32_
   poll_step = 1e-6 * duration;
   next_poll = state.step_time;
   polled = flushed = status->seconds();
-  controlled = -seconds_between_controls;
+  controlled = -seconds_between_polls;
 }
 
 FrameVariables JobObserver::Implementation::due_variables(const Progress& progress) {
@@ -178,7 +177,7 @@ bool JobObserver::Implementation::advance(const ResultSource& running, const Pro
   source = &running;
   last = progress;
   look_at_clock(progress);
-  const bool control = status->seconds() - controlled >= seconds_between_controls;
+  const bool control = status->seconds() - controlled >= seconds_between_polls;
   if (control) controlled = status->seconds();
   const Requests requests = take_requests(communicator, control ? paths.control() : "");
 

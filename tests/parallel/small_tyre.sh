@@ -17,6 +17,15 @@ same_results() { # same_results A B: every frame and history of two jobs, bit fo
     { echo "$1 and $2 differ"; return 1; }
 }
 
+# start_rolling FOLDER: a run of its own on two ranks, process $job, which is rolling on return (or, on a fast machine, through).
+start_rolling() {
+  rm -rf "$1"
+  cp -r "$folder/static" "$1"
+  mpirun --oversubscribe -n 2 "$balocco" run "$folder/small_tyre.inp" --output "$1" --restart >"$1.out" 2>&1 &
+  job=$!
+  until grep -q "ROLL" "$1/small_tyre.sta"; do kill -0 "$job"; sleep 0.02; done
+}
+
 rm -rf "$folder"
 mkdir -p "$folder"
 "$balocco" tyre "$here/small_tyre.toml" --output "$folder/small_tyre.inp" >"$folder/builder.out"
