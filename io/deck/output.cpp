@@ -25,7 +25,7 @@ const Words energies{"ALLKE", "ALLIE", "ALLSE", "ALLPD", "ALLVD", "ALLAE", "ALLF
 // to refuse.
 const Words abaqus_only{
     "CF",      "COORD",    "TF",       "RT",      "UT",     "VT",    "AT",      "NT",     "CM1",     "E",
-    "EE",      "NE",       "PE",       "PEEQ",    "PEMAG",  "PEEQT", "EVOL",    "IVOL",   "ELSE",    "ELKE",
+    "EE",      "NE",       "PE",       "PEEQ",    "PEMAG",  "PEEQT", "EVOL",    "IVOL",   "ELKE",
     "ELPD",    "PRESS",    "TRIAX",    "DENSITY", "STATUS", "SF",    "SE",      "ER",     "EVF",     "SVAVG",
     "PEVAVG",  "PEEQVAVG", "CNAREA",   "CSTATUS", "CFS",    "ALLCD", "ALLDMD",  "ALLEE",  "ALLJD",   "ALLKL",
     "ALLQB",   "ALLSD",    "ALLVE",    "ALLDC",   "ALLMW",  "ALLPW", "ALLCCDW", "ALLCCE", "ALLCCEN", "ALLCCET",
@@ -396,7 +396,7 @@ void finish_output(Builder& builder) {
     } else {
       builder.diagnostics.error(location, "ELEMENT OUTPUT",
                                 fmt::format("no element of the model has the variable {}; remove it or "
-                                            "correct the name (S, LE, MISES, SENER ...)",
+                                            "correct the name (S, LE, MISES, SENER, ELSE, ELASE ...)",
                                             variable));
     }
   }
@@ -411,7 +411,7 @@ void finish_output(Builder& builder) {
     default_times(step);
     for (auto& output : step.field_outputs) {
       for (auto* variables : {&output.element_variables, &output.integration_point_variables}) {
-        if (*variables == Words{"ALL"}) *variables = {"S", "LE", "MISES", "SENER", "STH"};
+        if (*variables == Words{"ALL"}) *variables = {"S", "LE", "MISES", "SENER", "STH", "ELSE", "ELASE"};
         std::erase_if(*variables, [&](const std::string& name) { return !exists(name); });
       }
       if (model.contact_pairs.empty()) output.contact_variables.clear();

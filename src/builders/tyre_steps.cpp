@@ -71,7 +71,7 @@ class StepAuthor {
   FieldOutput field_output() const {
     FieldOutput output;
     output.node_variables = {"U", "V"};
-    output.element_variables = {"S", "LE"};
+    output.element_variables = {"S", "LE", "ELSE", "ELASE"};
     output.contact_variables = {"CPRESS", "CSHEAR"};
     return output;
   }

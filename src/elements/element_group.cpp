@@ -11,6 +11,13 @@ namespace {
 
 std::int32_t whole_packs(std::int32_t count) { return (count + pack_size - 1) / pack_size * pack_size; }
 
+/// The energy of the whole element that an output variable asks for; null: it asks for something else.
+double ElementEnergies::*whole_element_energy(std::string_view variable) {
+  if (variable == "ELSE") return &ElementEnergies::strain;
+  if (variable == "ELASE") return &ElementEnergies::hourglass;
+  return nullptr;
+}
+
 }  // namespace
 
 // Lanes 0 .. size-1 are the elements of `rows`, in order; only the last pack has padded lanes. The interface portion is rounded
@@ -49,6 +56,19 @@ void ElementGroup::gather_history(std::int32_t element, std::span<const double> 
 void ElementGroup::scatter_history(std::int32_t element, std::span<const double> own, std::span<double> group_history) const {
   for (std::size_t component = 0; component < own.size(); ++component)
     group_history[component * padded_size_ + element] = own[component];
+}
+
+int ElementGroup::output_components(std::string_view variable) const {
+  return whole_element_energy(variable) != nullptr ? 1 : point_components(variable);
+}
+
+void ElementGroup::output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+                          std::span<const double> history, std::span<double> values) const {
+  if (const auto energy = whole_element_energy(variable); energy != nullptr) {
+    values[0] = energies(element, position, history).*energy;
+  } else {
+    point_output(variable, element, integration_point, position, history, values);
+  }
 }
 
 }  // namespace balocco

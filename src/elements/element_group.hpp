@@ -99,17 +99,22 @@ class ElementGroup {
 
   virtual ElementEnergies energies(std::int32_t element, const double* position, std::span<const double> history) const = 0;
 
-  /// Number of components of an output variable (S 6, LE 6, MISES 1, SENER 1, STH 1 ...), 0 where the element has none.
-  virtual int output_components(std::string_view variable) const = 0;
-  /// Values of a variable at one integration point, tensors in order 11 22 33 12 13 23.
-  virtual void output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
-                      std::span<const double> history, std::span<double> values) const = 0;
+  /// Number of components of an output variable, 0 where the element has none: those of its points (S 6, LE 6, MISES 1, SENER 1,
+  /// STH 1 ...) and the energies of the whole element, ELSE (elastic strain) and ELASE (artificial strain: hourglass).
+  int output_components(std::string_view variable) const;
+  /// Values of a variable at one integration point, tensors in order 11 22 33 12 13 23; whole-element variables are the same at each.
+  void output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+              std::span<const double> history, std::span<double> values) const;
   virtual int integration_points() const = 0;
 
   /// Size of the force kernel's reference data, for the memory estimate.
   virtual std::size_t bytes_per_element() const = 0;
 
  protected:
+  virtual int point_components(std::string_view variable) const = 0;
+  virtual void point_output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+                            std::span<const double> history, std::span<double> values) const = 0;
+
   std::int32_t table_, section_, size_, padded_size_, interface_padded_;
   int nodes_per_element_;
   std::vector<std::int32_t> rows_;          // padded

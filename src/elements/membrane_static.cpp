@@ -155,13 +155,13 @@ ElementEnergies MembraneGroup<corners, points>::energies(std::int32_t element, c
 }
 
 template <int corners, int points>
-int MembraneGroup<corners, points>::output_components(std::string_view variable) const {
+int MembraneGroup<corners, points>::point_components(std::string_view variable) const {
   if (variable == "S" || variable == "LE") return 6;
   return variable == "MISES" || variable == "SENER" || variable == "STH" ? 1 : 0;
 }
 
 template <int corners, int points>
-void MembraneGroup<corners, points>::output(std::string_view variable, std::int32_t element, int integration_point,
+void MembraneGroup<corners, points>::point_output(std::string_view variable, std::int32_t element, int integration_point,
                                           const double* position, std::span<const double> history,
                                           std::span<double> values) const {
   using Kernel = MembraneKernel<double, corners, points>;

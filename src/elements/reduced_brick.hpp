@@ -24,9 +24,9 @@ class ReducedBrick final : public ElementGroup {
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const double* position,
                            std::span<const double> history) const override;
-  int output_components(std::string_view variable) const override;
-  void output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
-              std::span<const double> history, std::span<double> values) const override;
+  int point_components(std::string_view variable) const override;
+  void point_output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+                    std::span<const double> history, std::span<double> values) const override;
   int integration_points() const override { return 1; }
   std::size_t bytes_per_element() const override;
 

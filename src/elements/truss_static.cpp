@@ -60,12 +60,12 @@ ElementEnergies TrussGroup::energies(std::int32_t element, const double* positio
   return result;
 }
 
-int TrussGroup::output_components(std::string_view variable) const {
+int TrussGroup::point_components(std::string_view variable) const {
   if (variable == "S" || variable == "LE") return 6;
   return variable == "MISES" || variable == "SENER" ? 1 : 0;
 }
 
-void TrussGroup::output(std::string_view variable, std::int32_t element, int, const double* position,
+void TrussGroup::point_output(std::string_view variable, std::int32_t element, int, const double* position,
                         std::span<const double> history, std::span<double> values) const {
   const std::array<double, 1> strain{strain_at(element, position)};
   const double square = 1.0 + 2.0 * strain[0], area_ratio = law_->transverse_stretch(strain);

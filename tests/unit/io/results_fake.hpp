@@ -28,12 +28,12 @@ class Group : public ElementGroup {
     return true;
   }
   ElementEnergies energies(std::int32_t, const double*, std::span<const double>) const override { return {}; }
-  int output_components(std::string_view variable) const override {
+  int point_components(std::string_view variable) const override {
     if (variable == "S") return 6;
     return variable == "STH" && history_size_ == 1 ? 1 : 0;
   }
   /// S: first history value + 10 x point + component.
-  void output(std::string_view variable, std::int32_t, int point, const double*, std::span<const double> history,
+  void point_output(std::string_view variable, std::int32_t, int point, const double*, std::span<const double> history,
               std::span<double> values) const override {
     for (std::size_t c = 0; c < values.size(); ++c) {
       values[c] = history[0] + (variable == "S" ? 10.0 * point + static_cast<double>(c) : 0.25);

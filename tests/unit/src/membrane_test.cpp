@@ -145,6 +145,11 @@ TEST(MembraneHourglass, BendsAsBeamTheory) {
   sheet.position[12] -= u;
   const double energy = 0.5 * young * thickness * b * b * b / (12.0 * a) * angle * angle;
   EXPECT_NEAR(sheet.energies().hourglass, energy, 1e-5 * energy);  // second order in the angle
+  std::array<double, 1> artificial{}, elastic{};
+  sheet.group->output("ELASE", 0, 0, sheet.position.data(), sheet.initial_history(), artificial);
+  sheet.group->output("ELSE", 0, 0, sheet.position.data(), sheet.initial_history(), elastic);
+  EXPECT_NEAR(artificial[0], energy, 1e-5 * energy);
+  EXPECT_LT(elastic[0], 1e-5 * energy);
   EXPECT_LT(sheet.energies().strain, 1e-5 * energy);
 }
 
