@@ -80,6 +80,7 @@ NewtonResult StaticNewton::converge(const IncrementGoal& goal) {
 void StaticNewton::start(const IncrementGoal& goal) {
   std::ranges::fill(increment_, 0.0);
   history_.clear();
+  descends_ = false;
   discontinuous_ = 0;
   augmentations_ = 0;
   iterations_before_ = 0;
@@ -254,6 +255,12 @@ bool StaticNewton::stands_alone(const IncrementGoal& goal) {
   return true;
 }
 
+/// Two corrections took the residual up and back to where it was: contact points that open and close in turn do that.
+bool StaticNewton::circles() const {
+  const auto n = history_.size();
+  return n >= 3 && history_[n - 2] > history_[n - 3] && std::abs(history_[n - 1] / history_[n - 3] - 1.0) < 0.1;
+}
+
 /// Goes along the correction as far as it does good: all the way unless that inverts an element or makes things worse.
 bool StaticNewton::search_line(const IncrementGoal& goal) {
   constexpr int most_trials = 6;
@@ -269,6 +276,7 @@ bool StaticNewton::search_line(const IncrementGoal& goal) {
     return sums;
   };
   const auto before = work();
+  descends_ = descends_ || circles();
   double factor = 1.0;
   bool sound = false;
   for (int trial = 0; trial < most_trials; ++trial) {
@@ -282,7 +290,7 @@ bool StaticNewton::search_line(const IncrementGoal& goal) {
     const auto after = work();
     const double ratio = before[0] != 0.0 ? after[0] / before[0] : 0.0;
     const bool better = after[1] <= before[1];
-    if (step_.controls.line_search ? std::abs(ratio) <= 0.25 : (better || std::abs(ratio) <= 0.9)) break;
+    if (step_.controls.line_search ? std::abs(ratio) <= 0.25 : (better || (!descends_ && std::abs(ratio) <= 0.9))) break;
     if (trial + 2 >= most_trials) break;
     // The root of the straight line through the works at the origin and here, if it lies between.
     factor *= ratio < 0.0 ? std::clamp(1.0 / (1.0 - ratio), 0.1, 0.7) : 0.5;

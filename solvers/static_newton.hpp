@@ -73,6 +73,7 @@ class StaticNewton {
   bool solve(const IncrementGoal& goal, NewtonResult& result);
   bool solve_held_back(const IncrementGoal& goal);
   bool stands_alone(const IncrementGoal& goal);
+  bool circles() const;
   bool search_line(const IncrementGoal& goal);
   bool penetrates(const IncrementGoal& goal, const NewtonResult& result);
   bool gives_up(const IncrementGoal& goal, const Norms& now, NewtonResult& result);
@@ -94,6 +95,7 @@ class StaticNewton {
   double largest_correction_ = 0.0, largest_increment_ = 0.0;
   double greatest_reference_ = 0.0;  // in this step
   std::vector<double> history_;      // of residual norms in this increment
+  bool descends_ = false;            // since the iterations circled: only corrections that lower the residual are taken
   int discontinuous_ = 0, augmentations_ = 0;
   int iterations_before_ = 0;  // the last augmentation
   double contact_length_ = 0.0;
