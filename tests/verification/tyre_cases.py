@@ -56,9 +56,9 @@ def at_rest(balocco, ranks, folder):
     check("drift of the hub load over 20 ms", np.max(np.abs(load - load[0])) / load[0], 1e-3)
 
 
-def rolling(balocco, ranks, folder):
+def rolling(balocco, ranks, folder, model="2"):
     """A free wheel on a flat road carries its static load and loses no energy unaccounted for."""
-    changes = {"settle_duration": "20.0", "duration": "0.1", "obstacle_start": "1000.0"}
+    changes = {"model": model, "settle_duration": "20.0", "duration": "0.1", "obstacle_start": "1000.0"}
     results, log = run(balocco, ranks, folder, changes)
     check("|f_int + f_contact - f_ext| / |f_ext| on import", imported_residual(log), 1e-8)
     load = hub_load(results, "SETTLE")
@@ -69,6 +69,11 @@ def rolling(balocco, ranks, folder):
     check("energy error", np.max(np.abs(total - total[0])) / np.max(kinetic), 1e-2)
 
 
+def rolling_on_membranes(balocco, ranks, folder):
+    """As rolling, with sidewalls of membranes alone (model 1)."""
+    rolling(balocco, ranks, folder, model="1")
+
+
 if __name__ == "__main__":
     case, balocco, ranks, folder = sys.argv[1:]
-    {"at_rest": at_rest, "rolling": rolling}[case](balocco, ranks, folder)
+    {"at_rest": at_rest, "rolling": rolling, "rolling_on_membranes": rolling_on_membranes}[case](balocco, ranks, folder)
