@@ -27,16 +27,19 @@ struct ContactForce {
   double tangential_stiffness = 0.0;
 };
 
-inline void open(ContactPoint& point) {
+/// An open point has no multiplier; its anchor follows it, so that friction knows how it moved in the increment in which
+/// it closes. `place`: in the frame of the master body.
+inline void open(ContactPoint& point, const Vector3<double>& place) {
   point.multiplier = 0.0;
   point.closed = 0.0;
-  point.anchor = {};
+  point.anchor = place.component;
 }
 
-/// Tangential part of the force: spring from the anchor, cut at Coulomb's limit; slipping drags the anchor along. Work
-/// done in slipping, limit x slip, goes to the dissipation (backward Euler).
+/// Tangential part of the force: spring from the anchor, cut at Coulomb's limit; slipping drags the anchor along, and
+/// closing brings it down to the surface. Work done in slipping, limit x slip, goes to the dissipation (backward
+/// Euler).
 template <class T>
-void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, const Vector3<T>& normal,
+void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, const SurfacePoint<T>& nearest,
                   ContactPoint& point, ContactForce<T>& force) {
   const T limit = force.pressure * parameters.friction;
   T stiffness(parameters.stiffness);
@@ -45,48 +48,49 @@ void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, 
   force.tangential_stiffness = value_of(stiffness);
 
   Vector3<T> stretch{place[0] - point.anchor[0], place[1] - point.anchor[1], place[2] - point.anchor[2]};
-  stretch = stretch - dot(stretch, normal) * normal;
+  stretch = stretch - dot(stretch, nearest.normal) * nearest.normal;
   const T square = dot(stretch, stretch);
   const double reach = value_of(limit) / value_of(stiffness);
-  if (value_of(square) <= reach * reach) {
+  const bool sticks = value_of(square) <= reach * reach;
+  double kept = 1.0;  // part of the stretch that the spring can hold
+  if (sticks) {
     force.friction = -stiffness * stretch;
-    return;
+  } else {
+    const T length = square_root(square);
+    force.friction = -(limit / length) * stretch;
+    kept = reach / value_of(length);
+    const double slip = value_of(length) - reach;
+    point.slip += slip;
+    point.frictional_dissipation += value_of(limit) * slip;
   }
-  const T length = square_root(square);
-  force.friction = -(limit / length) * stretch;
-  const double kept = reach / value_of(length), slip = value_of(length) - reach;
-  for (int i = 0; i < 3; ++i) point.anchor[i] = value_of(place[i]) - kept * value_of(stretch[i]);
-  point.slip += slip;
-  point.frictional_dissipation += value_of(limit) * slip;
+  if (sticks && point.closed > 0.0) return;
+  for (int i = 0; i < 3; ++i)
+    point.anchor[i] = value_of(place[i]) - value_of(nearest.distance) * value_of(nearest.normal[i]) -
+                      kept * value_of(stretch[i]);
 }
 
-/// `point`: history at the start on entry, at the end on return. A point that closes sticks from where it first stands
-/// in contact, so friction begins with the increment after; one that opens forgets anchor and multiplier.
+/// `point`: history at the start on entry, at the end on return. Friction acts from the increment in which the point
+/// closes: the spring starts from where the point was over the surface when that increment began.
 template <class T>
 ContactForce<T> contact_force(const RigidSurface& surface, const PenaltyParameters& parameters, const Vector3<T>& place,
                               ContactPoint& point) {
   ContactForce<T> force;
   const Vector3<double> values{value_of(place[0]), value_of(place[1]), value_of(place[2])};
   if (point.multiplier == 0.0 && surface.surely_outside(values)) {
-    open(point);
+    open(point, values);
     return force;
   }
   const SurfacePoint<T> nearest = surface.nearest(place);
   const T pressure = point.multiplier - parameters.stiffness * nearest.distance;
   if (!(value_of(pressure) > 0.0)) {
-    open(point);
+    open(point, values);
     return force;
   }
   force.closed = true;
   force.pressure = pressure;
   force.normal = pressure * nearest.normal;
-  if (point.closed == 0.0) {
-    point.closed = 1.0;
-    for (int i = 0; i < 3; ++i)
-      point.anchor[i] = value_of(place[i]) - value_of(nearest.distance) * value_of(nearest.normal[i]);
-  } else if (parameters.friction > 0.0) {
-    add_friction(parameters, place, nearest.normal, point, force);
-  }
+  if (parameters.friction > 0.0) add_friction(parameters, place, nearest, point, force);
+  point.closed = 1.0;
   return force;
 }
 

@@ -89,6 +89,14 @@ RigidContact::RigidContact(const Model& model, std::int32_t pair, const Domain& 
   }
 }
 
+void RigidContact::start_step(const double* position, const RigidBodyState& master, bool active,
+                              std::vector<ContactPoint>& points) const {
+  const MasterFrame frame(master);
+  for (std::int32_t i = 0; i < size(); ++i)
+    if (!active || points[i].closed == 0.0)
+      open(points[i], frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i])));
+}
+
 void RigidContact::add_forces(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points,
                               double* force) const {
   const MasterFrame frame(master);

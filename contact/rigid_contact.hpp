@@ -44,6 +44,11 @@ class RigidContact {
   double area(std::int32_t point) const { return area_[point]; }
   double normal_stiffness(std::int32_t point) const { return stiffness_[point]; }
 
+  /// At the start of a step: points of a pair that is not `active` open, and open points stand over the surface where
+  /// they are, so that nothing is remembered from before a pair rested. Slip and dissipation stay.
+  void start_step(const double* position, const RigidBodyState& master, bool active,
+                  std::vector<ContactPoint>& points) const;
+
   /// Explicit: adds the contact force of every slave node on this rank (copies of shared nodes compute the same bits)
   /// to `force`, rounded with each node's constant, and advances the points. Call between Halo::begin_sum and
   /// finish_sum.

@@ -138,6 +138,15 @@ const std::vector<double>& Analysis::partial_mass(std::int32_t element_set) cons
   return mass;
 }
 
+void Analysis::start_step(const Step& step) {
+  apply_attachments(step);
+  for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
+    const bool active = std::ranges::count(step.active_contact_pairs, static_cast<std::int32_t>(pair)) > 0;
+    contacts[pair].start_step(current.position.data(), current.rigid_bodies[contacts[pair].master_body()], active,
+                              current.contact[pair]);
+  }
+}
+
 void Analysis::apply_attachments(const Step& step) {
   const auto position_of = [&](std::int32_t row) -> Point {
     // A node is on at least one rank; all ranks need its position because bodies are replicated.

@@ -34,8 +34,9 @@ class Analysis : public ResultSource {
   NodalDirections directions;
   State current;
 
-  /// Attaches and releases what the step says, from where the nodes stand; marks dofs. Called when a step starts afresh.
-  void apply_attachments(const Step& step);
+  /// What happens once when a step starts afresh: attaches and releases what it says, from where the nodes stand; contact
+  /// pairs that rest in it forget what they knew. Collective.
+  void start_step(const Step& step);
   /// Body that carries a local node, or -1. Reference nodes are not carried.
   std::int32_t carrier(std::int32_t local_node) const { return carrier_[local_node]; }
   /// Body whose reference node is this local node, or -1.
@@ -66,6 +67,7 @@ class Analysis : public ResultSource {
 
  private:
   void sum_masses();
+  void apply_attachments(const Step& step);
   double kinetic_energy_of_rotary_inertia() const;
 
   std::vector<std::int32_t> carrier_, reference_of_;

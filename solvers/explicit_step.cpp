@@ -31,8 +31,8 @@ NodalConstraints make_constraints(const Analysis& analysis, const Step& step) {
 }
 
 /// Attachments come first of all: what follows depends on who carries which node.
-const Step& attached(Analysis& analysis, const Step& step) {
-  if (analysis.current.increment == 0) analysis.apply_attachments(step);
+const Step& started(Analysis& analysis, const Step& step) {
+  if (analysis.current.increment == 0) analysis.start_step(step);
   return step;
 }
 
@@ -40,7 +40,7 @@ const Step& attached(Analysis& analysis, const Step& step) {
 
 ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& observer)
     : analysis_(analysis),
-      step_(attached(analysis, step)),
+      step_(started(analysis, step)),
       observer_(observer),
       total_time_at_start_(time_before(analysis.model, analysis.current.step)),
       scale_(force_scale(analysis, step)),

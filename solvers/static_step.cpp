@@ -371,7 +371,7 @@ void StaticStep::log_totals(double seconds) {
 }  // namespace
 
 Outcome run_static_step(Analysis& analysis, const Step& step, Observer& observer) {
-  if (analysis.current.step_time == 0.0 && analysis.current.increment == 0) analysis.apply_attachments(step);
+  if (analysis.current.step_time == 0.0 && analysis.current.increment == 0) analysis.start_step(step);
   observer.step_started(analysis, analysis.current.step);
   return StaticStep(analysis, step, observer).run();
 }

@@ -27,11 +27,6 @@ StaticSystem::StaticSystem(Analysis& analysis, const Step& step, std::span<const
       stiffness_(map_, analysis.communicator),
       residual_(map_.slots()),
       external_(map_.slots()) {
-  // Pairs that rest in this step forget what they knew.
-  for (std::size_t pair = 0; pair < analysis.contacts.size(); ++pair)
-    if (std::ranges::find(step.active_contact_pairs, static_cast<std::int32_t>(pair)) ==
-        step.active_contact_pairs.end())
-      std::ranges::fill(analysis.current.contact[pair], ContactPoint{});
   find_levers();
   find_stabilizing_masses();
   begin_increment();

@@ -29,7 +29,7 @@ struct RigidBodyState {
 struct ContactPoint {
   double multiplier = 0.0;  // augmented-Lagrange normal force carried over from the implicit solver, >= 0
   double closed = 0.0;      // 1 while in contact
-  Point anchor{};           // sticking point in the frame of the master body
+  Point anchor{};           // in the frame of the master body: sticking point; of an open point: where it is
   double slip = 0.0;        // accumulated sliding distance
   double frictional_dissipation = 0.0;
 };

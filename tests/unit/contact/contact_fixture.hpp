@@ -27,7 +27,9 @@ struct Contact {
         pair(model, 0, domain),
         master(initial_rigid_bodies(model)[0]),
         position(positions(model, domain)),
-        points(pair.size()) {}
+        points(pair.size()) {
+    start_step();
+  }
 
   static Model make_model(const AnalyticalSurface& surface, double mu, std::optional<double> elastic_slip) {
     Model model = plate_on_road(1, surface);
@@ -38,6 +40,12 @@ struct Contact {
 
   double k() const { return pair.normal_stiffness(0); }
   void place(const Point& at) { std::copy(at.begin(), at.end(), position.begin()); }
+  void start_step(bool active = true) { pair.start_step(position.data(), master, active, points); }
+  /// A step starts with node 0 standing there.
+  void start_at(const Point& at) {
+    place(at);
+    start_step();
+  }
 
   /// Force of the explicit loop on node 0, with a rounding constant so fine that it hides nothing.
   Point force() {

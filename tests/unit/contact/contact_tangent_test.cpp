@@ -16,6 +16,7 @@ struct TangentCase {
   AnalyticalSurface surface;
   std::optional<double> elastic_slip;
   double stretch;  // of the tangential spring, in units of its limit
+  double lift = 0.0;  // above the surface when the increment began, for a point that closes in it
 };
 
 class TangentOrder : public testing::TestWithParam<TangentCase> {};
@@ -50,7 +51,7 @@ TEST_P(TangentOrder, DifferencesApproachTheTangentQuadratically) {
   const TangentCase& c = GetParam();
   Contact contact(c.surface, friction, c.elastic_slip);
   rotate(contact.master, {0.25, -0.15, 0.3});
-  contact.place({4.0, 3.0, -3.0});
+  contact.start_at({4.0, 3.0, -3.0});
   ContactPoint closed;
   ASSERT_TRUE(contact.tangent(closed).closed);
   contact.points[0] = closed;
@@ -59,6 +60,12 @@ TEST_P(TangentOrder, DifferencesApproachTheTangentQuadratically) {
   const double limit = c.elastic_slip.value_or(friction * at.pressure * contact.pair.area(0) / contact.k());
   contact.points[0].anchor[0] += 0.8 * c.stretch * limit;
   contact.points[0].anchor[1] -= 0.6 * c.stretch * limit;
+  if (c.lift > 0.0) {
+    contact.points[0].closed = 0.0;
+    const auto normal = contact.pair.output(0, contact.position.data(), contact.master, closed).normal_force;
+    const auto local = transpose(rotation_matrix(contact.master)) * Vector3<double>{normal};
+    for (int i = 0; i < 3; ++i) contact.points[0].anchor[i] += c.lift / norm(normal) * local[i];
+  }
   ContactPoint updated;
   contact.tangent(updated);
   ASSERT_EQ(updated.slip > 0.0, c.stretch > 1.0);
@@ -75,14 +82,16 @@ INSTANTIATE_TEST_SUITE_P(Cases, TangentOrder,
                                          TangentCase{"HillStick", hilly_road(), {}, 0.5},
                                          TangentCase{"HillSlip", hilly_road(), {}, 3.0},
                                          TangentCase{"HillElasticSlipStick", hilly_road(), 9.0, 0.5},
-                                         TangentCase{"HillElasticSlipSlip", hilly_road(), 9.0, 1.5}),
+                                         TangentCase{"HillElasticSlipSlip", hilly_road(), 9.0, 1.5},
+                                         TangentCase{"HillClosingStick", hilly_road(), {}, 0.5, 2.0},
+                                         TangentCase{"HillClosingSlip", hilly_road(), {}, 3.0, 2.0}),
                          [](const auto& info) { return std::string(info.param.name); });
 
 // What makes the import of contact exact.
 TEST(RigidContact, ExplicitAndImplicitForcesAreTheSameBits) {
   Contact contact(hilly_road());
   rotate(contact.master, {0.1, 0.2, -0.3});
-  contact.place({4.0, 3.0, -2.0});
+  contact.start_at({4.0, 3.0, -2.0});
   contact.force();
   contact.place({-6.0, 13.0, -2.1});
   contact.points[0].multiplier = 0.3;
@@ -101,7 +110,7 @@ TEST(RigidContact, ExplicitAndImplicitForcesAreTheSameBits) {
 TEST(RigidContact, ForceStaysWhereNothingMoves) {
   Contact contact(hilly_road());
   rotate(contact.master, {0.1, 0.2, -0.3});
-  contact.place({4.0, 3.0, -2.0});
+  contact.start_at({4.0, 3.0, -2.0});
   contact.force();
   contact.place({-6.0, 13.0, -2.1});
   ContactPoint updated;
