@@ -291,6 +291,77 @@ def chattering_block(job):
     check_energy(job, 1e-2)
 
 
+RESTING_PAIR = """*HEADING
+A held cube dips into a plane that moves; the pair rests while the plane moves on, and comes back
+*NODE
+1, 0., 0., -0.001
+2, 1., 0., -0.001
+3, 1., 1., -0.001
+4, 0., 1., -0.001
+5, 0., 0., 0.999
+6, 1., 0., 0.999
+7, 1., 1., 0.999
+8, 0., 1., 0.999
+9002, 0., 0., 0.
+*ELEMENT, TYPE=C3D8R, ELSET=CUBE
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*SOLID SECTION, ELSET=CUBE, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+1e6, 0.
+*DENSITY
+1000.
+*NSET, NSET=CUBE, GENERATE
+1, 8
+*NSET, NSET=PLANE
+9002
+*SURFACE, NAME=SOLE
+CUBE, S1
+*SURFACE, NAME=GROUND, TYPE=CYLINDER
+0., 0., 0., 1., 0., 0.
+0., 1., 0.
+START, -10., 0.
+LINE, 10., 0.
+*RIGID BODY, REF NODE=9002, ANALYTICAL SURFACE=GROUND
+*SURFACE INTERACTION, NAME=GRIP
+*FRICTION
+0.5
+*CONTACT PAIR, INTERACTION=GRIP
+SOLE, GROUND
+*BOUNDARY
+CUBE, 1, 3
+9002, 2, 6
+""" + "".join(f"""*STEP
+*DYNAMIC, EXPLICIT
+, 0.1
+*BOUNDARY, TYPE=VELOCITY
+9002, 1, 1, {speed}
+{change}*OUTPUT, HISTORY, TIME INTERVAL=0.01
+*NODE OUTPUT, NSET=PLANE
+RF
+*ENERGY OUTPUT
+ALLFD
+*END STEP
+""" for speed, change in ((0.1, ""), (0.1, "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nSOLE, GROUND\n"),
+                          (0.0, "*MODEL CHANGE, TYPE=CONTACT PAIR, ADD\nSOLE, GROUND\n")))
+
+
+def resting_pair(job):
+    """A pair that rests in a step has forgotten where its nodes stuck when it comes back: the plane, which moved on meanwhile,
+    presses and does not pull. Heat stays: normal force x mu x slip, all but the stretch of the tangential spring, mu x depth."""
+    job.run(RESTING_PAIR)
+    depth, pressing = 1e-3, 1e6 / 2.0 * 1e-3  # k = E A / (2 h) in all, of a cube of 1
+    first, rest, back = (job.history("node_9002", "RF", step)[1][-1] for step in (1, 2, 3))
+    check("normal force", abs(first[2]), pressing, 1e-9)
+    check("friction", first[0], 0.5 * pressing, 1e-9)
+    check("force while the pair rests", np.abs(rest).max(), 0.0, 1e-9 * pressing)
+    check("normal force of the pair that came back", abs(back[2]), pressing, 1e-9)
+    check("its friction", abs(back[0]), 0.0, 1e-9 * pressing)
+    for step in (1, 2, 3):
+        heat = job.history("energy", "ALLFD", step)[1][-1]
+        check(f"heat after step {step}", heat, 0.5 * pressing * (0.01 - 0.5 * depth), 1e-6)
+
+
 def resting_block(job):
     """An imported equilibrium stays at rest: block on a plane under gravity, static then explicit."""
     job.run()
@@ -315,7 +386,7 @@ def driven_block(job):
 
 
 CASES = {case.__name__: case for case in (truss_stability, rod_impact, free_flight, spun_block, pendulum, dzhanibekov, skid,
-                                          sliding_block, chattering_block, resting_block, driven_block)}
+                                          sliding_block, chattering_block, resting_pair, resting_block, driven_block)}
 
 if __name__ == "__main__":
     case, balocco, ranks, folder = sys.argv[1:]
