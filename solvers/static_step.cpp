@@ -105,6 +105,11 @@ void StaticStep::find_start() {
 
 Outcome StaticStep::run() {
   const double begin = MPI_Wtime();
+  if (!follows_geometry() && analysis_.current.increment > 0)
+    throw InputError(fmt::format(
+        "{}: error: *STATIC: the checkpoint lies inside step '{}', which is linear and counts from where it began; run "
+        "the job without --restart, or give the step NLGEOM",
+        analysis_.model.name, step_.name));
   find_start();
   const auto& procedure = step_.static_procedure;
   observer_.log(fmt::format("step {} '{}': static, {}, {} equations", analysis_.current.step + 1, step_.name,
@@ -122,8 +127,11 @@ Outcome StaticStep::run() {
 Outcome StaticStep::march() {
   const auto& procedure = step_.static_procedure;
   auto& state = analysis_.current;
-  double suggested = procedure.initial_increment;
-  int easy = 0, failures = 0;
+  // A step taken up again goes on with the increment that it had come to.
+  const bool taken_up = state.increment > 0 && state.time_increment != 0.0;
+  double suggested = taken_up ? std::abs(state.time_increment) : procedure.initial_increment;
+  int easy = taken_up && state.time_increment < 0.0 ? 1 : 0, failures = 0;
+  bool stopping = false;
   while (remaining_time() > 0.0) {
     if (state.increment >= procedure.maximum_increments)
       fail(suggested,
@@ -148,6 +156,7 @@ Outcome StaticStep::march() {
     if (easy >= 2 && !procedure.direct)
       suggested =
           std::min({std::max(suggested, time_increment) * growth, procedure.maximum_increment, step_.duration()});
+    state.time_increment = goal.ends_step ? 0.0 : (easy > 0 ? -suggested : suggested);
     const bool go_on = observer_.advanced(analysis_, {.increment = state.increment,
                                                       .step_time = state.step_time,
                                                       .total_time = state.total_time,
@@ -155,7 +164,11 @@ Outcome StaticStep::march() {
                                                       .iterations = result.iterations,
                                                       .largest_residual = result.largest_residual,
                                                       .step_finished = goal.ends_step});
-    if (!go_on) return Outcome::stopped;
+    if (!go_on && !stopping && !follows_geometry() && !goal.ends_step)
+      observer_.log("  a linear step counts from where it began: it is run to its end before the job stops");
+    stopping = stopping || !go_on;
+    const bool job_ends = goal.ends_step && state.step + 1 == static_cast<std::int32_t>(analysis_.model.steps.size());
+    if (stopping && !job_ends && (follows_geometry() || goal.ends_step)) return Outcome::stopped;
   }
   return Outcome::finished;
 }

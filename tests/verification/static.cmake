@@ -5,3 +5,10 @@ foreach(case patch_c3d8r patch_c3d8 elastica rollup rotation release linear henc
                    ${CMAKE_CURRENT_BINARY_DIR}/static_${case})
   set_tests_properties(static_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
 endforeach()
+
+foreach(case stabilized snap_through velocity gravity moment pinned petsc interrupted linear_interrupted)
+  add_test(NAME static_${case}
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/static_option_cases.py ${case} $<TARGET_FILE:balocco>
+                   ${CMAKE_CURRENT_BINARY_DIR}/static_${case})
+  set_tests_properties(static_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
+endforeach()

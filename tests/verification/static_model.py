@@ -104,8 +104,9 @@ class Runner:
         self.program = program
         self.folder = folder
 
-    def launch(self, name, deck, ranks, options=()):
-        folder = os.path.join(self.folder, "%s_%d" % (name, ranks))
+    def launch(self, name, deck, ranks, options=(), place=None):
+        """Runs in the folder `place`, or in one for this number of ranks."""
+        folder = os.path.join(self.folder, place or "%s_%d" % (name, ranks))
         os.makedirs(folder, exist_ok=True)
         path = os.path.join(folder, name + ".inp")
         deck.write(path)
@@ -114,13 +115,17 @@ class Runner:
         done = subprocess.run(command, capture_output=True, text=True, timeout=240)
         return done, os.path.join(folder, name)
 
-    def run(self, name, deck, ranks=1, options=()):
-        done, base = self.launch(name, deck, ranks, options)
+    def run(self, name, deck, ranks=1, options=(), place=None):
+        done, base = self.launch(name, deck, ranks, options, place)
         assert done.returncode == 0, "%s on %d ranks left with %d\n%s%s" % (
             name, ranks, done.returncode, done.stdout[-3000:], done.stderr[-3000:])
         results = Results(base + ".h5")
         results.log = open(base + ".log").read()
         return results
+
+    def results(self, name, ranks):
+        """What launch() left."""
+        return Results(os.path.join(self.folder, "%s_%d" % (name, ranks), name + ".h5"))
 
     def run_alike(self, name, deck):
         """Runs on one and on two ranks; both must agree to 1e-10 of the largest displacement: all that differs is the order of
