@@ -27,8 +27,8 @@ struct ContactForce {
   double tangential_stiffness = 0.0;
 };
 
-/// An open point has no multiplier; its anchor follows it, so that friction knows how it moved in the increment in which
-/// it closes. `place`: in the frame of the master body.
+/// An open point has no multiplier; its anchor follows it, so that friction knows how it moved in the increment in
+/// which it closes. `place`: in the frame of the master body.
 inline void open(ContactPoint& point, const Vector3<double>& place) {
   point.multiplier = 0.0;
   point.closed = 0.0;
@@ -65,8 +65,8 @@ void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, 
   }
   if (sticks && point.closed > 0.0) return;
   for (int i = 0; i < 3; ++i)
-    point.anchor[i] = value_of(place[i]) - value_of(nearest.distance) * value_of(nearest.normal[i]) -
-                      kept * value_of(stretch[i]);
+    point.anchor[i] =
+        value_of(place[i]) - value_of(nearest.distance) * value_of(nearest.normal[i]) - kept * value_of(stretch[i]);
 }
 
 /// `point`: history at the start on entry, at the end on return. Friction acts from the increment in which the point

@@ -15,7 +15,7 @@ struct TangentCase {
   const char* name;
   AnalyticalSurface surface;
   std::optional<double> elastic_slip;
-  double stretch;  // of the tangential spring, in units of its limit
+  double stretch;     // of the tangential spring, in units of its limit
   double lift = 0.0;  // above the surface when the increment began, for a point that closes in it
 };
 

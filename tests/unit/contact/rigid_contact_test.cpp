@@ -230,7 +230,8 @@ TEST(RigidContact, ChatteringMassStopsWhereCoulombSays) {
   EXPECT_NEAR(x[0], distance, last);
 }
 
-// A pair that rests in a step and comes back knows nothing of where its nodes stuck before; what was dissipated stays so.
+// A pair that rests in a step and comes back knows nothing of where its nodes stuck before; what was dissipated stays
+// so.
 TEST(RigidContact, APairThatRestedStartsAfresh) {
   Contact contact;
   contact.start_at({0, 0, -0.01});

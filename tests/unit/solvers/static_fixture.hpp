@@ -1,5 +1,6 @@
-// A beam of four bricks on any number of ranks: one end is carried by a rigid body with a hub as reference node, the
-// lower side touches a road on another rigid body, the upper side is under pressure; some nodes have own directions.
+// A beam of four bricks on any number of ranks: one end and a node of the middle are carried by a rigid body with a hub
+// as reference node, the lower side touches a road on another rigid body, the upper side is under pressure; some nodes
+// have own directions.
 #pragma once
 
 #include <cmath>
@@ -16,9 +17,10 @@ constexpr std::int32_t hub = 4 * (bricks + 1), road = hub + 1;  // rows of refer
 inline std::int32_t row(int i, int j, int k) {
   return 4 * i + 2 * j + k;
 }
-/// The end that the hub carries, and the end whose motion is prescribed.
+/// What the hub carries, the end and a node in the middle (which two ranks share), and the end whose motion is
+/// prescribed.
 inline std::vector<std::int32_t> carried_rows() {
-  return {row(bricks, 0, 0), row(bricks, 0, 1), row(bricks, 1, 0), row(bricks, 1, 1)};
+  return {row(bricks, 0, 0), row(bricks, 0, 1), row(bricks, 1, 0), row(bricks, 1, 1), row(2, 0, 1)};
 }
 inline std::vector<std::int32_t> root_rows() {
   return {row(0, 0, 0), row(0, 0, 1), row(0, 1, 0), row(0, 1, 1)};
@@ -53,7 +55,7 @@ inline void add_bricks(Model& model) {
 inline void add_bodies(Model& model) {
   model.rigid_bodies.resize(2);
   model.rigid_bodies[0].reference_node = hub;
-  model.rigid_bodies[0].tie_nodes = {row(bricks, 0, 0), row(bricks, 0, 1), row(bricks, 1, 0)};
+  model.rigid_bodies[0].tie_nodes = {row(bricks, 0, 0), row(bricks, 0, 1), row(bricks, 1, 0), row(2, 0, 1)};
   model.rigid_bodies[0].pin_nodes = {row(bricks, 1, 1)};
   model.rigid_bodies[1].reference_node = road;
   model.rigid_bodies[1].analytical_surface = 2;
