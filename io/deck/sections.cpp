@@ -146,6 +146,12 @@ void read_membrane_section(Builder& builder, const Block& block) {
   auto section = begin(builder, block, elements);
   if (!section) return;
   section->kind = Section::Kind::membrane;
+  if (block.real("OFFSET", 0.0) != 0.0) {
+    return builder.error(block, block.location,
+                         fmt::format("OFFSET={}: the nodes of a membrane lie on its middle surface; move the nodes there "
+                                     "and leave OFFSET out or 0",
+                                     block.value("OFFSET")));
+  }
   if (block.has("COMPOSITE")) {
     if (!read_plies(builder, block, *section)) return;
   } else {
@@ -222,7 +228,8 @@ const RegisterKeyword membrane{
     {"MEMBRANE SECTION",
      Phase::sections,
      Place::model,
-     {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"), flag("COMPOSITE")},
+     {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"), flag("COMPOSITE"),
+      real("OFFSET")},
      read_membrane_section}};
 const RegisterKeyword mass{{"MASS", Phase::sections, Place::model, {required(name("ELSET"))}, read_mass}};
 const RegisterKeyword rotary{

@@ -120,6 +120,16 @@ TEST(DeckAssembly, InstancesAreMovedAndRenumbered) {
   EXPECT_EQ(held, (std::vector<std::int32_t>{0, 2, 2, 1, 4}));
 }
 
+TEST(DeckMesh, MembraneMayOnlyLieOnItsNodes) {
+  const std::string sheet =
+      "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=M3D3, ELSET=E\n1, 1, 2, 3\n"
+      "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.3\n";
+  EXPECT_EQ(errors_of(sheet + "*MEMBRANE SECTION, ELSET=E, MATERIAL=M, OFFSET=0.\n0.1\n"), "");
+  EXPECT_NE(errors_of(sheet + "*MEMBRANE SECTION, ELSET=E, MATERIAL=M, OFFSET=0.5\n0.1\n")
+                .find("job.inp:10: error: *MEMBRANE SECTION: OFFSET=0.5: the nodes of a membrane lie on its middle surface"),
+            std::string::npos);
+}
+
 TEST(DeckMesh, ElementNeedsItsSectionOnce) {
   const std::string errors = errors_of("*NODE\n1\n2, 1.\n3, 2.\n" + bar + "*ELEMENT, TYPE=T3D2\n2, 2, 3\n" + bars);
   EXPECT_EQ(errors,
