@@ -1,6 +1,7 @@
 #include "results_frame.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "elements/element_type.hpp"
 
@@ -10,14 +11,18 @@ namespace {
 
 using Precision = ParallelFile::Precision;
 
-void add_names(const std::vector<std::string>& names, bool single, std::vector<FrameVariables::Variable>& variables) {
+void add_names(const std::vector<std::string>& names, bool single, std::int32_t set,
+               std::vector<FrameVariables::Variable>& variables) {
   for (const std::string& name : names) {
     const auto same = std::find_if(variables.begin(), variables.end(), [&](const auto& v) { return v.name == name; });
     if (same == variables.end()) {
-      variables.push_back({name, single ? Precision::single_ : Precision::double_});
-    } else if (!single) {
-      same->precision = Precision::double_;
+      variables.push_back({name, single ? Precision::single_ : Precision::double_, {}});
+      if (set >= 0) variables.back().sets.push_back(set);
+      continue;
     }
+    if (!single) same->precision = Precision::double_;
+    if (set < 0) same->sets.clear();
+    if (!same->sets.empty()) same->sets.push_back(set);
   }
 }
 
@@ -26,10 +31,11 @@ constexpr std::size_t room_for_structure = 1 << 20;  // groups, attributes and c
 }  // namespace
 
 void FrameVariables::add(const FieldOutput& output) {
-  add_names(output.node_variables, output.single_precision, nodes);
-  add_names(output.contact_variables, output.single_precision, nodes);
-  add_names(output.element_variables, output.single_precision, elements);
-  add_names(output.integration_point_variables, output.single_precision, integration_points);
+  const bool single = output.single_precision;
+  add_names(output.node_variables, single, output.node_set, nodes);
+  add_names(output.contact_variables, single, -1, nodes);
+  add_names(output.element_variables, single, output.element_set, elements);
+  add_names(output.integration_point_variables, single, output.element_set, integration_points);
 }
 
 void mean_output(const ElementGroup& group, std::string_view variable, std::int32_t element, const State& state,
@@ -50,7 +56,7 @@ void mean_output(const ElementGroup& group, std::string_view variable, std::int3
 FrameWriter::FrameWriter(const Model& model, const Communicator& communicator, const Domain& domain, ElementGroups groups)
     : model_(&model),
       communicator_(&communicator),
-      local_nodes_(domain.size()),
+      domain_(&domain),
       nodes_(make_node_rows(model, communicator, domain, Copies::owned)),
       tables_(make_table_rows(model, communicator, groups)) {}
 
@@ -64,15 +70,21 @@ ParallelFile::Layout FrameWriter::Field::layout() const {
 std::vector<FrameWriter::Field> FrameWriter::plan(const ResultSource& source, const FrameVariables& variables) const {
   using Place = Field::Place;
   std::vector<Field> fields;
-  for (const auto& [name, precision] : variables.nodes) {
-    fields.push_back({Place::node, name, 0, source.nodal_components(name), 1, precision});
+  for (const auto& [name, precision, sets] : variables.nodes) {
+    fields.push_back({Place::node, name, 0, source.nodal_components(name), 1, precision, sets});
   }
   for (std::size_t table = 0; table < tables_.size(); ++table) {
-    for (const auto& [name, precision] : variables.elements) fields.push_back({Place::mean, name, table, 0, 1, precision});
-    for (const auto& [name, precision] : variables.integration_points) {
-      fields.push_back({Place::points, name, table, 0, 1, precision});
+    for (const auto& [name, precision, sets] : variables.elements) {
+      fields.push_back({Place::mean, name, table, 0, 1, precision, sets});
+    }
+    for (const auto& [name, precision, sets] : variables.integration_points) {
+      fields.push_back({Place::points, name, table, 0, 1, precision, sets});
     }
   }
+  // Element types without a member of the sets are left out.
+  std::erase_if(fields, [&](const Field& field) {
+    return field.place != Place::node && !field.sets.empty() && std::ranges::count(members(field), true) == 0;
+  });
   // A rank without elements of a type learns from the others what they have.
   std::vector<double> sizes;
   for (const Field& field : fields) {
@@ -105,7 +117,7 @@ std::size_t FrameWriter::bytes(const std::vector<Field>& fields) const {
 }
 
 std::vector<double> FrameWriter::nodal_values(const Field& field, const ResultSource& source) const {
-  std::vector<double> local(static_cast<std::size_t>(local_nodes_) * field.components);
+  std::vector<double> local(static_cast<std::size_t>(domain_->size()) * field.components);
   source.nodal(field.variable, local);
   std::vector<double> held(nodes_.nodes.size() * field.components);
   for (std::size_t i = 0; i < nodes_.nodes.size(); ++i) {
@@ -140,8 +152,42 @@ std::vector<double> FrameWriter::element_values(const Field& field, const Result
   return values;
 }
 
+std::vector<bool> FrameWriter::members(const Field& field) const {
+  if (field.place == Field::Place::node) {
+    std::vector<bool> inside(model_->nodes.id.size(), false);
+    for (const auto set : field.sets) {
+      for (const auto node : model_->node_sets[set].nodes) inside[node] = true;
+    }
+    return inside;
+  }
+  const std::int32_t table = tables_[field.table].table;
+  std::vector<bool> inside(model_->elements[table].size(), false);
+  for (const auto set : field.sets) {
+    for (const ElementRef element : model_->element_sets[set].elements) {
+      if (element.table == table) inside[element.row] = true;
+    }
+  }
+  return inside;
+}
+
 std::vector<double> FrameWriter::values(const Field& field, const ResultSource& source) const {
-  return field.place == Field::Place::node ? nodal_values(field, source) : element_values(field, source);
+  const bool nodal = field.place == Field::Place::node;
+  std::vector<double> values = nodal ? nodal_values(field, source) : element_values(field, source);
+  if (field.sets.empty()) return values;
+  const std::vector<bool> inside = members(field);
+  auto value = values.begin();
+  const auto keep = [&](std::int32_t row) {
+    if (!inside[row]) std::fill_n(value, field.row_values(), std::numeric_limits<double>::quiet_NaN());
+    value += field.row_values();
+  };
+  if (nodal) {
+    for (const std::int32_t node : nodes_.nodes) keep(domain_->node_row[node]);
+  } else {
+    for (const ElementGroup* group : tables_[field.table].groups) {
+      for (std::int32_t element = 0; element < group->size(); ++element) keep(group->row(element));
+    }
+  }
+  return values;
 }
 
 FrameRecord FrameWriter::write_fields(ParallelFile& file, const Hdf5Id& frame, const std::vector<Field>& fields,

@@ -16,6 +16,7 @@ struct FrameVariables {
   struct Variable {
     std::string name;
     ParallelFile::Precision precision;
+    std::vector<std::int32_t> sets;  // whose members are written, not a number elsewhere; empty: the whole model
   };
   std::vector<Variable> nodes, elements, integration_points;
 
@@ -44,6 +45,7 @@ class FrameWriter {
     std::size_t table;  // row of tables_
     int components = 0, points = 1;
     ParallelFile::Precision precision;
+    std::vector<std::int32_t> sets;
 
     int row_values() const { return place == Place::points ? points * components : components; }
     std::string name() const { return place == Place::points ? variable + "_IP" : variable; }
@@ -56,12 +58,14 @@ class FrameWriter {
   std::vector<double> values(const Field& field, const ResultSource& source) const;
   std::vector<double> nodal_values(const Field& field, const ResultSource& source) const;
   std::vector<double> element_values(const Field& field, const ResultSource& source) const;
+  /// Which rows of the field's table belong to its sets.
+  std::vector<bool> members(const Field& field) const;
   FrameRecord write_fields(ParallelFile& file, const Hdf5Id& frame, const std::vector<Field>& fields,
                            const ResultSource& source) const;
 
   const Model* model_;
   const Communicator* communicator_;
-  std::int32_t local_nodes_;
+  const Domain* domain_;
   NodeRows nodes_;
   std::vector<TableRows> tables_;
 };

@@ -19,6 +19,7 @@ struct StepDraft {
   std::unordered_map<std::int64_t, std::size_t> concentrated_of;  // node * 6 + dof -> row of Step::concentrated_loads
   bool field_replaced = false, history_replaced = false;  // an *OUTPUT of this step took the place of earlier ones
   enum class Output { none, field, history } output = Output::none;  // what the latest *OUTPUT asked for
+  std::size_t first_field = 0;  // row of Step::field_outputs that the latest *OUTPUT, FIELD began
 
   /// True if a load was said (again) in this step.
   template <class Load>

@@ -165,14 +165,17 @@ void Writer::field_output(const FieldOutput& output, std::size_t step, std::size
     times = ", TIME POINTS=" + name;
   }
   line("*OUTPUT, FIELD{}{}", times, output.single_precision ? "" : ", PRECISION=DOUBLE");
-  const auto request = [&](const char* keyword, const std::vector<std::string>& variables) {
+  const auto request = [&](const std::string& keyword, const std::vector<std::string>& variables) {
     if (variables.empty()) return;
     line("{}", keyword);
     values(variables);
   };
-  request("*NODE OUTPUT", output.node_variables);
-  request("*ELEMENT OUTPUT", output.element_variables);
-  request("*ELEMENT OUTPUT, POSITION=INTEGRATION POINTS", output.integration_point_variables);
+  const std::string nodes = output.node_set < 0 ? "" : ", NSET=" + quoted(model_.node_sets[output.node_set].name);
+  const std::string elements =
+      output.element_set < 0 ? "" : ", ELSET=" + quoted(model_.element_sets[output.element_set].name);
+  request("*NODE OUTPUT" + nodes, output.node_variables);
+  request("*ELEMENT OUTPUT" + elements, output.element_variables);
+  request("*ELEMENT OUTPUT, POSITION=INTEGRATION POINTS" + elements, output.integration_point_variables);
   request("*CONTACT OUTPUT", output.contact_variables);
 }
 

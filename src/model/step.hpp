@@ -59,7 +59,8 @@ struct RigidAttachment {
   bool release = false;
 };
 
-/// *OUTPUT, FIELD: when a frame is written and what it holds. Exactly one of the four marks is set.
+/// *OUTPUT, FIELD: when a frame is written and what it holds. Exactly one of the four marks is set. Requests of one *OUTPUT
+/// for different sets are entries of their own, with the same marks.
 struct FieldOutput {
   std::optional<std::int32_t> frequency;        // every n increments
   std::optional<std::int32_t> number_interval;  // n equal intervals of the step
@@ -70,6 +71,8 @@ struct FieldOutput {
   std::vector<std::string> integration_point_variables;  // written as <VAR>_IP
   std::vector<std::string> contact_variables;   // CPRESS, CSHEAR, COPEN, CSLIP
   bool single_precision = true;
+  std::int32_t node_set = -1;     // rows of Model::node_sets and element_sets that the nodal variables and the element variables
+  std::int32_t element_set = -1;  // are written for, not a number elsewhere; -1: the whole model
 };
 
 /// *OUTPUT, HISTORY: when a row of history is written and of what.

@@ -143,6 +143,39 @@ TEST(DeckStep, WhatAbaqusWritesByDefaultRuns) {
   EXPECT_FALSE(result.model.steps[0].checkpoint_frequency);
 }
 
+TEST(DeckStep, FieldOutputOfASetIsKeptApart) {
+  const auto step = steps_of(
+      "*STEP\n*STATIC\n*OUTPUT, FIELD, FREQUENCY=3, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*NODE OUTPUT, NSET=ALLN\nRF\n"
+      "*ELEMENT OUTPUT, ELSET=ALL\nS\n*NODE OUTPUT, NSET=7\nV\n*NODE OUTPUT, NSET=ALLN\nV\n*END STEP\n")[0];
+  const auto& outputs = step.field_outputs;
+  ASSERT_EQ(outputs.size(), 3u);
+  EXPECT_EQ(outputs[0].node_variables, (std::vector<std::string>{"U"}));
+  EXPECT_EQ(outputs[0].node_set, -1);
+  EXPECT_EQ(outputs[0].element_variables, (std::vector<std::string>{"S"}));
+  EXPECT_GE(outputs[0].element_set, 0);
+  EXPECT_EQ(outputs[1].node_variables, (std::vector<std::string>{"RF", "V"}));
+  EXPECT_GE(outputs[1].node_set, 0);
+  EXPECT_EQ(outputs[2].node_variables, (std::vector<std::string>{"V"}));
+  EXPECT_NE(outputs[2].node_set, outputs[1].node_set);
+  for (const auto& output : outputs) {
+    EXPECT_EQ(output.frequency, 3);
+    EXPECT_FALSE(output.single_precision);
+  }
+}
+
+TEST(DeckStep, ContactFieldsOfOneOfTwoPairsAreRefused) {
+  const std::string pairs =
+      "*NODE\n100, 0., 0., 0.\n101, 0., 0., 0.\n*SURFACE, NAME=BOTTOM, TYPE=ELEMENT\nALL, S1\n"
+      "*SURFACE, NAME=ROAD, TYPE=CYLINDER\n0., 0., 0., 1., 0., 0.\n0., 1., 0.\nSTART, -1., 0.\nLINE, 1., 0.\n"
+      "*SURFACE, NAME=WALL, TYPE=CYLINDER\n0., 0., 0., 1., 0., 0.\n0., 1., 0.\nSTART, -1., -1.\nLINE, 1., -1.\n"
+      "*RIGID BODY, ANALYTICAL SURFACE=ROAD, REF NODE=100\n*RIGID BODY, ANALYTICAL SURFACE=WALL, REF NODE=101\n"
+      "*SURFACE INTERACTION, NAME=DRY\n*CONTACT PAIR, INTERACTION=DRY\nBOTTOM, ROAD\n";
+  const std::string request = "*STEP\n*STATIC\n*OUTPUT, FIELD\n*CONTACT OUTPUT, MASTER=ROAD\nCPRESS\n*END STEP\n";
+  EXPECT_EQ(errors_of(brick + pairs + request), "") << "the only pair is the whole model";
+  const auto errors = errors_of(brick + pairs + "*CONTACT PAIR, INTERACTION=DRY\nBOTTOM, WALL\n" + request);
+  EXPECT_NE(errors.find("*CONTACT OUTPUT: contact fields are sums over all contact pairs"), std::string::npos) << errors;
+}
+
 const std::string everything =
     "*AMPLITUDE, NAME=TABLE\n0., 0., 0.1, 1.\n*AMPLITUDE, NAME=WAVE, DEFINITION=PERIODIC, TIME=TOTAL TIME\n1, 6.28, "
     "0., 0.\n0., 1.\n"
@@ -160,8 +193,8 @@ const std::string everything_steps =
     "INCREMENTATION\n, , , 30\n"
     "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nBOTTOM, ROAD\n*BOUNDARY, AMPLITUDE=TABLE\n7, 1, 2, 0.3\n*BOUNDARY\n100, "
     "1, 6\n*CLOAD\n8, 3, 2.\n*DSLOAD\nBOTTOM, P, 0.2\n"
-    "*RESTART, WRITE, FREQUENCY=5\n*OUTPUT, FIELD, TIME POINTS=WHEN, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*ELEMENT "
-    "OUTPUT, POSITION=INTEGRATION POINTS\nS\n"
+    "*RESTART, WRITE, FREQUENCY=5\n*OUTPUT, FIELD, TIME POINTS=WHEN, PRECISION=DOUBLE\n*NODE OUTPUT, NSET=ALLN\nU\n*ELEMENT "
+    "OUTPUT, ELSET=SKIN, POSITION=INTEGRATION POINTS\nS\n"
     "*END STEP\n*STEP, NAME=TWO\n*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n1E-7, 1E-5\n*BULK VISCOSITY\n0.1, 0.\n*MODEL "
     "CHANGE, TYPE=CONTACT PAIR, ADD\nBOTTOM, ROAD\n"
     "*BOUNDARY, OP=NEW\n100, 2, 6\n*BOUNDARY, OP=NEW, TYPE=VELOCITY\n100, 1, 1, 11.\n*CLOAD, OP=NEW\n*DLOAD\nALL, "

@@ -2,6 +2,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <fstream>
@@ -145,6 +147,29 @@ TEST_F(Results, FramesHoldWhatTheAnalysisHad) {
   EXPECT_FLOAT_EQ(mean[6 * 3 + 4], 0.5 * (at_points[12 * 3 + 4] + at_points[12 * 3 + 6 + 4]));
   EXPECT_EQ(file.integer_attribute("/step_2", "completed"), 1);
   EXPECT_NEAR(file.number_attribute("/step_2", "time_end"), 11.0, 1e-9);
+}
+
+TEST_F(Results, FieldsOfASetAreNoNumbersElsewhere) {
+  model.steps[1].field_outputs[0].node_set = 0;     // WATCHED: three nodes
+  model.steps[1].field_outputs[0].element_set = 0;  // PAIR: the last membrane and the first brick
+  model.element_sets.push_back({"LAST BRICK", {{1, 39}}});
+  model.steps[1].field_outputs[1].element_set = 1;
+  const std::string directory = fake::folder("sets");
+  run_job(world, directory);
+  const Hdf5File file(directory + "/job.h5", Hdf5File::Mode::read);
+  const auto motion = file.read("/step_2/frame_1/node/U");
+  const auto& watched = model.node_sets[0].nodes;
+  for (std::size_t row = 0; row < model.nodes.id.size(); ++row) {
+    const bool inside = std::find(watched.begin(), watched.end(), static_cast<std::int32_t>(row)) != watched.end();
+    EXPECT_EQ(std::isnan(motion[3 * row]), !inside) << row;
+    EXPECT_EQ(std::isnan(motion[3 * row + 2]), !inside) << row;
+  }
+  const auto stress = file.read("/step_2/frame_1/element/FAKE8/S");
+  for (std::size_t row = 0; row < 40; ++row) EXPECT_EQ(std::isnan(stress[6 * row]), row != 0) << row;
+  EXPECT_TRUE(file.exists("/step_2/frame_2/element/FAKE8/S_IP"));
+  EXPECT_FALSE(file.exists("/step_2/frame_2/element/FAKE4")) << "no membrane is in the set";
+  const auto velocity = file.read("/step_2/frame_2/node/V");
+  EXPECT_EQ(std::count_if(velocity.begin(), velocity.end(), [](double v) { return std::isnan(v); }), 0);
 }
 
 TEST_F(Results, HistoryHoldsRowsAtItsMarks) {

@@ -1,0 +1,141 @@
+// *NODE OUTPUT *ELEMENT OUTPUT.
+#include "deck/output_words.hpp"
+#include "deck/register.hpp"
+#include "deck/text.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+/// U or U1..U3 of a vector variable.
+bool is_node_history(const std::string& variable) {
+  if (contains(node_vectors, variable)) return true;
+  return variable.size() > 1 && variable.back() >= '1' && variable.back() <= '3' &&
+         contains(node_vectors, variable.substr(0, variable.size() - 1));
+}
+
+/// Row of the node set that NSET names, a node id made one; nothing if it is undefined (told).
+std::optional<std::int32_t> node_set(Builder& builder, const Block& block) {
+  std::vector<std::int32_t> nodes;
+  const std::string name = block.value("NSET");
+  if (!builder.nodes_of(name, block, block.location, nodes)) return std::nullopt;
+  if (const auto set = builder.find(builder.node_sets, name)) return set;
+  const std::int32_t row = builder.node_set_row("_OUTPUT-" + name);
+  builder.model.node_sets[row].nodes = nodes;
+  return row;
+}
+
+/// The same for ELSET.
+std::optional<std::int32_t> element_set(Builder& builder, const Block& block) {
+  std::vector<ElementRef> elements;
+  const std::string name = block.value("ELSET");
+  if (!builder.elements_of(name, block, block.location, elements)) return std::nullopt;
+  if (const auto set = builder.find(builder.element_sets, name)) return set;
+  const std::int32_t row = builder.element_set_row("_OUTPUT-" + name);
+  builder.model.element_sets[row].elements = elements;
+  return row;
+}
+
+/// The entry of the latest *OUTPUT, FIELD whose variables are written for `set`: one of another set is left alone.
+FieldOutput& field_for(Builder& builder, std::int32_t FieldOutput::*member, std::int32_t set) {
+  auto& outputs = builder.model.steps.back().field_outputs;
+  const bool of_nodes = member == &FieldOutput::node_set;
+  const auto unused = [&](const FieldOutput& output) {
+    return of_nodes ? output.node_variables.empty()
+                    : output.element_variables.empty() && output.integration_point_variables.empty();
+  };
+  for (std::size_t row = builder.draft.first_field; row < outputs.size(); ++row) {
+    if (unused(outputs[row])) outputs[row].*member = set;
+    if (outputs[row].*member == set) return outputs[row];
+  }
+  FieldOutput another = outputs[builder.draft.first_field];  // its marks and precision
+  for (auto* variables : {&another.node_variables, &another.element_variables, &another.integration_point_variables,
+                          &another.contact_variables}) {
+    variables->clear();
+  }
+  another.node_set = another.element_set = -1;
+  another.*member = set;
+  return outputs.emplace_back(std::move(another));
+}
+
+void read_node_field(Builder& builder, const Block& block) {
+  const auto set = block.has("NSET") ? node_set(builder, block) : -1;
+  if (!set) return;
+  auto& output = field_for(builder, &FieldOutput::node_set, *set);
+  if (is_preselect(block)) {
+    for (const auto& variable : block.value("VARIABLE") == "ALL" ? node_vectors : preselected_node)
+      add(output.node_variables, variable);
+  }
+  each_variable(builder, block, [&](const std::string& variable, Row& row) {
+    if (!contains(node_vectors, variable)) return unknown_variable(builder, block, row, variable, node_vectors);
+    add(output.node_variables, variable);
+  });
+}
+
+void read_node_history(Builder& builder, const Block& block) {
+  if (!block.has("NSET")) return builder.error(block, block.location, "the nodes are not named; add NSET=...");
+  const auto set = node_set(builder, block);
+  if (!set) return;
+  HistoryOutput::Nodes request;
+  request.set = *set;
+  if (is_preselect(block)) request.variables = preselected_node;
+  each_variable(builder, block, [&](const std::string& variable, Row& row) {
+    if (!is_node_history(variable)) return unknown_variable(builder, block, row, variable, node_vectors);
+    add(request.variables, variable);
+  });
+  if (!request.variables.empty()) builder.model.steps.back().history_outputs.back().nodes.push_back(std::move(request));
+}
+
+void read_node_output(Builder& builder, const Block& block) {
+  if (builder.draft.output == StepDraft::Output::field) read_node_field(builder, block);
+  if (builder.draft.output == StepDraft::Output::history) read_node_history(builder, block);
+}
+
+void read_element_field(Builder& builder, const Block& block) {
+  const auto set = block.has("ELSET") ? element_set(builder, block) : -1;
+  if (!set) return;
+  auto& output = field_for(builder, &FieldOutput::element_set, *set);
+  const bool at_points = squeeze(block.value("POSITION")) == "INTEGRATIONPOINTS";
+  auto& target = at_points ? output.integration_point_variables : output.element_variables;
+  if (is_preselect(block)) {
+    for (const auto& variable : preselected_element) add(target, variable);
+  }
+  each_variable(builder, block, [&](const std::string& variable, Row& row) {
+    add(target, variable);
+    builder.asked_element_variables.push_back({variable, row.location()});
+  });
+}
+
+void read_element_history(Builder& builder, const Block& block) {
+  if (!block.has("ELSET")) return builder.error(block, block.location, "the elements are not named; add ELSET=...");
+  const auto set = element_set(builder, block);
+  if (!set) return;
+  HistoryOutput::Elements request;
+  request.set = *set;
+  if (is_preselect(block)) request.variables = preselected_element;
+  each_variable(builder, block, [&](const std::string& variable, Row& row) {
+    add(request.variables, variable);
+    builder.asked_element_variables.push_back({variable, row.location()});
+  });
+  if (!request.variables.empty()) builder.model.steps.back().history_outputs.back().elements.push_back(std::move(request));
+}
+
+void read_element_output(Builder& builder, const Block& block) {
+  if (builder.draft.output == StepDraft::Output::field) read_element_field(builder, block);
+  if (builder.draft.output == StepDraft::Output::history) read_element_history(builder, block);
+}
+
+const ParameterRule variable = choice("VARIABLE", {"PRESELECT", "ALL"});
+const RegisterKeyword node_output{
+    {"NODE OUTPUT", Phase::history, Place::step, {name("NSET"), variable}, read_node_output, "OUTPUT"}};
+const RegisterKeyword element_output{
+    {"ELEMENT OUTPUT",
+     Phase::history,
+     Place::step,
+     {name("ELSET"), variable, choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}), choice("DIRECTIONS", {"YES"})},
+     read_element_output,
+     "OUTPUT"}};
+
+}  // namespace
+
+}  // namespace balocco::deck

@@ -1,0 +1,58 @@
+#include "deck/output_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/text.hpp"
+
+namespace balocco::deck {
+
+const Words node_vectors{"U", "V", "A", "RF", "UR", "VR", "AR", "RM"};
+const Words contact_fields{"CPRESS", "CSHEAR", "COPEN", "CSLIP", "CNORMF", "CSHEARF"};
+const Words contact_histories{"CFN", "CFT", "CM", "CAREA", "XN"};
+const Words energies{"ALLKE", "ALLIE", "ALLSE", "ALLPD", "ALLVD", "ALLAE", "ALLFD", "ALLCW", "ALLWK", "ETOTAL"};
+
+const Words preselected_node{"U", "V", "A", "RF"};
+const Words preselected_element{"S", "LE", "MISES"};
+const Words preselected_contact{"CPRESS", "CSHEAR", "COPEN"};
+
+namespace {
+
+// Variables of Abaqus that its own pre-processor asks for by default and that are not written here: told, but no reason
+// to refuse.
+const Words abaqus_only{
+    "CF",      "COORD",    "TF",       "RT",      "UT",     "VT",    "AT",      "NT",     "CM1",     "E",
+    "EE",      "NE",       "PE",       "PEEQ",    "PEMAG",  "PEEQT", "EVOL",    "IVOL",    "ELKE",
+    "ELPD",    "PRESS",    "TRIAX",    "DENSITY", "STATUS", "SF",    "SE",      "ER",     "EVF",     "SVAVG",
+    "PEVAVG",  "PEEQVAVG", "CNAREA",   "CSTATUS", "CFS",    "ALLCD", "ALLDMD",  "ALLEE",  "ALLJD",   "ALLKL",
+    "ALLQB",   "ALLSD",    "ALLVE",    "ALLDC",   "ALLMW",  "ALLPW", "ALLCCDW", "ALLCCE", "ALLCCEN", "ALLCCET",
+    "ALLCCSD", "ALLCCSDN", "ALLCCSDT", "ALLHF",   "ALLIHE", "DMASS", "EFABRIC"};
+
+}  // namespace
+
+bool contains(const Words& words, const std::string& word) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+void add(Words& words, const std::string& word) {
+  if (!contains(words, word)) words.push_back(word);
+}
+
+bool is_abaqus_only(const std::string& variable) {
+  return contains(abaqus_only, variable);
+}
+
+void unknown_variable(Builder& builder, const Block& block, Row& row, const std::string& variable, const Words& known) {
+  if (is_abaqus_only(variable)) {
+    return builder.warning(block, row.location(), fmt::format("variable {} is not written by Balocco", variable));
+  }
+  row.error(fmt::format("variable {} is unknown or not supported{}; supported: {}", variable,
+                        did_you_mean(variable, known), join(known)));
+}
+
+bool is_preselect(const Block& block) {
+  return block.value("VARIABLE") == "PRESELECT" || block.value("VARIABLE") == "ALL";
+}
+
+}  // namespace balocco::deck

@@ -1,0 +1,41 @@
+// What the *OUTPUT family has in common: the variables that exist, and how requests for them are read.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "deck/builder.hpp"
+
+namespace balocco::deck {
+
+using Words = std::vector<std::string>;
+
+// The nodal and contact variables of model/results.hpp, and energies.
+extern const Words node_vectors, contact_fields, contact_histories, energies;
+// What VARIABLE=PRESELECT stands for.
+extern const Words preselected_node, preselected_element, preselected_contact;
+
+bool contains(const Words& words, const std::string& word);
+/// Appends a word that is not there yet.
+void add(Words& words, const std::string& word);
+
+/// A variable of Abaqus that is not written here: told, but no reason to refuse.
+bool is_abaqus_only(const std::string& variable);
+/// A warning for what only Abaqus writes, an error with the nearest known word for the rest.
+void unknown_variable(Builder& builder, const Block& block, Row& row, const std::string& variable, const Words& known);
+
+/// VARIABLE=PRESELECT or ALL.
+bool is_preselect(const Block& block);
+
+/// Calls use(name, row) for every variable on the data lines.
+template <class Use>
+void each_variable(Builder& builder, const Block& block, const Use& use) {
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    for (int field = 0; field < row.size() && row.ok(); ++field) {
+      if (row.has(field)) use(row.name(field), row);
+    }
+  }
+}
+
+}  // namespace balocco::deck
