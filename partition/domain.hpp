@@ -38,9 +38,6 @@ struct Domain {
   std::int32_t scratch_node() const { return size(); }
 };
 
-/// Cost of an element in the explicit loop relative to a C3D8R = 100, by type: the partition's weights.
-std::int64_t element_cost(const ElementType& type);
-
 Domain make_domain(const Model& model, const Communicator& communicator, const Partitioner& partitioner = metis_partition);
 
 }  // namespace balocco

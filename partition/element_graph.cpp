@@ -1,9 +1,8 @@
 #include "element_graph.hpp"
 
 #include <algorithm>
-#include <map>
+#include <cmath>
 #include <span>
-#include <string_view>
 
 #include "elements/element_type.hpp"
 
@@ -54,13 +53,6 @@ NodeElements elements_around_nodes(const Model& model, const std::vector<Element
 
 }  // namespace
 
-std::int64_t element_cost(const ElementType& type) {
-  static const std::map<std::string_view, std::int64_t> cost = {
-      {"C3D8R", 100}, {"C3D8", 400}, {"C3D6", 80}, {"M3D4", 90}, {"M3D4R", 45}, {"M3D3", 30}, {"T3D2", 15}};
-  const auto found = cost.find(type.name);
-  return found != cost.end() ? found->second : 12 * type.nodes * type.integration_points;
-}
-
 std::vector<ElementRef> graph_elements(const Model& model) {
   std::vector<ElementRef> elements;
   for (std::size_t t = 0; t < model.elements.size(); ++t) {
@@ -92,7 +84,7 @@ Graph element_graph(const Model& model, const std::vector<ElementRef>& elements)
       shared[other] = 0;
     }
     graph.first.push_back(static_cast<std::int64_t>(graph.neighbour.size()));
-    graph.weight.push_back(element_cost(type));
+    graph.weight.push_back(std::max<std::int64_t>(1, std::llround(type.cycle_cost)));
   }
   return graph;
 }

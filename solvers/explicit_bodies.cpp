@@ -170,33 +170,58 @@ void RigidDynamics::set_initial_velocities(Analysis& analysis, const Instant& in
   }
 }
 
-void RigidDynamics::sum_forces(const Analysis& analysis, const double* force, const std::vector<Point>& moments) {
-  if (bodies_.empty()) return;
-  for (auto& sum : sums_) sum.clear();
-  for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto rotation = rotation_matrix(analysis.current.rigid_bodies[i]);
-    for (const auto& [node, owned, offset] : bodies_[i].nodes) {
-      if (!owned) continue;
-      const double* f = force + 4 * static_cast<std::ptrdiff_t>(node);
-      const Vector3<double> nodal{{f[0], f[1], f[2]}};
-      const auto moment = cross(rotation * vector(offset), nodal);
-      for (int c = 0; c < 3; ++c) {
-        sums_[6 * i + c].add(nodal[c]);
-        sums_[6 * i + 3 + c].add(moment[c]);
-      }
+bool RigidDynamics::is_held_still(const Analysis& analysis, std::size_t index, const Instant& instant) const {
+  const Body& body = bodies_[index];
+  const auto is_free = [](const BoundaryCondition* condition) { return condition == nullptr; };
+  if (std::ranges::any_of(body.condition, is_free)) return false;
+  const Motion now = motion(analysis, body, index);
+  return now.velocity.isZero(0.0) && prescribed(analysis, body, now, instant).isZero(0.0);
+}
+
+void RigidDynamics::add_body_forces(const Analysis& analysis, const double* force, std::size_t index,
+                                    std::span<ExactSum, 6> sums) const {
+  const auto rotation = rotation_matrix(analysis.current.rigid_bodies[index]);
+  for (const auto& [node, owned, offset] : bodies_[index].nodes) {
+    if (!owned) continue;
+    const double* f = force + 4 * static_cast<std::ptrdiff_t>(node);
+    const Vector3<double> nodal{{f[0], f[1], f[2]}};
+    const auto moment = cross(rotation * vector(offset), nodal);
+    for (int c = 0; c < 3; ++c) {
+      sums[c].add(nodal[c]);
+      sums[3 + c].add(moment[c]);
     }
   }
+}
+
+void RigidDynamics::sum_forces(const Analysis& analysis, const double* force, const std::vector<Point>& moments,
+                               const Instant& instant, Which which) {
+  const auto sums_of = [&](const Body& body) {
+    return std::span<ExactSum, 6>(&sums_[6 * static_cast<std::size_t>(body.sum)], 6);
+  };
+  std::int32_t count = 0;
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const bool skipped = which == Which::that_need_it && is_held_still(analysis, i, instant);
+    bodies_[i].sum = skipped ? -1 : count++;
+    bodies_[i].force.setZero();
+    if (skipped) continue;
+    for (auto& sum : sums_of(bodies_[i])) sum.clear();
+    add_body_forces(analysis, force, i, sums_of(bodies_[i]));
+  }
+  if (count == 0) return;
   for (const auto pair : step_.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
     const auto master = static_cast<std::size_t>(contact.master_body());
+    if (bodies_[master].sum < 0) continue;
     contact.add_master_resultant(analysis.current.position.data(), analysis.current.rigid_bodies[master],
-                                 analysis.current.contact[pair], std::span<ExactSum, 6>(&sums_[6 * master], 6));
+                                 analysis.current.contact[pair], sums_of(bodies_[master]));
   }
-  analysis.communicator.sum(std::span<ExactSum>(sums_));
+  analysis.communicator.sum(std::span(sums_).first(6 * static_cast<std::size_t>(count)));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto sum = [&](std::size_t k) { return sums_[6 * i + k].value(); };
-    const Vector3<double> moment{{sum(3) + moments[i][0], sum(4) + moments[i][1], sum(5) + moments[i][2]}};
-    bodies_[i].force = along(bodies_[i].axes, {{sum(0), sum(1), sum(2)}}, moment);
+    if (bodies_[i].sum < 0) continue;
+    const auto sums = sums_of(bodies_[i]);
+    const Vector3<double> moment{
+        {sums[3].value() + moments[i][0], sums[4].value() + moments[i][1], sums[5].value() + moments[i][2]}};
+    bodies_[i].force = along(bodies_[i].axes, {{sums[0].value(), sums[1].value(), sums[2].value()}}, moment);
   }
 }
 

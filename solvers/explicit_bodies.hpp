@@ -4,6 +4,7 @@
 #include <Eigen/Dense>
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "explicit_motion.hpp"
@@ -31,9 +32,12 @@ class RigidDynamics {
   /// nodes.
   void set_initial_velocities(Analysis& analysis, const Instant& instant) const;
 
-  /// Force and moment about the reference node of all nodal forces (4 a node), of contact on masters, and of `moments`.
-  /// Collective.
-  void sum_forces(const Analysis& analysis, const double* force, const std::vector<Point>& moments);
+  /// Bodies that are held where they stand in all degrees of freedom need no forces, except for output.
+  enum class Which { all, that_need_it };
+  /// Force and moment about the reference node of all nodal forces (4 a node), of contact on masters, and of `moments`; zero
+  /// for bodies that need none. Collective.
+  void sum_forces(const Analysis& analysis, const double* force, const std::vector<Point>& moments,
+                  const Instant& instant, Which which);
   /// Accelerations, reactions and their work; then the velocities of bodies and of their nodes over the next increment.
   void accelerate(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments);
   /// Moves bodies over an increment and puts their nodes where they belong.
@@ -63,6 +67,7 @@ class RigidDynamics {
     Matrix3<double> axes = Matrix3<double>::identity();  // rows: directions of the degrees of freedom
     std::array<const BoundaryCondition*, 6> condition{};
     std::vector<CarriedNode> nodes;
+    std::int32_t sum = -1;  // its six sums start at 6 * sum; -1: it needs none in this increment
     // At the current instant, along the degrees of freedom:
     Vector6 force = Vector6::Zero(), acceleration = Vector6::Zero(), reaction = Vector6::Zero();
     Vector3<double> spin{};  // at the instant, global
@@ -81,10 +86,12 @@ class RigidDynamics {
   void solve(const RigidBodyState& state, Body& body, const Vector6& old_velocity, const Instant& instant,
              const Vector6& wanted) const;
   void set_node_velocities(Analysis& analysis, std::size_t index, double increment) const;
+  bool is_held_still(const Analysis& analysis, std::size_t index, const Instant& instant) const;
+  void add_body_forces(const Analysis& analysis, const double* force, std::size_t index, std::span<ExactSum, 6> sums) const;
 
   const Step& step_;
   std::vector<Body> bodies_;
-  std::vector<ExactSum> sums_;  // 6 a body
+  std::vector<ExactSum> sums_;  // 6 for each body that needs them, room for all
 };
 
 }  // namespace balocco

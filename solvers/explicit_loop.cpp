@@ -44,8 +44,8 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
     cycle.advance_positions();
     compute_forces(cycle);
     cycle.add_damping();
-    cycle.sum_body_forces();
     cycle.choose_increment();
+    cycle.sum_body_forces();
     cycle.update_velocities();
     if (!cycle.observe()) return Outcome::stopped;
   }

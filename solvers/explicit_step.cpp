@@ -217,7 +217,9 @@ void ExplicitStep::add_damping() {
 }
 
 void ExplicitStep::sum_body_forces() {
-  timers.measure(Phase::bodies, [&] { bodies_.sum_forces(analysis_, force_.data(), moments_); });
+  using Which = RigidDynamics::Which;
+  const Which which = attention_ || finished() ? Which::all : Which::that_need_it;
+  timers.measure(Phase::bodies, [&] { bodies_.sum_forces(analysis_, force_.data(), moments_, instant(), which); });
 }
 
 void ExplicitStep::choose_increment() {

@@ -37,10 +37,11 @@ class ExplicitStep {
   void add_contact();
   void finish_halo();
   void add_damping();
-  void sum_body_forces();
   /// Agrees over all ranks on the next increment and on whether the observer wants to be called.
   /// @throws AnalysisError where the run has blown up or the increment collapsed.
   void choose_increment();
+  /// Behind choose_increment, which tells what is prescribed over the next increment and whether the observer wants reactions.
+  void sum_body_forces();
   void update_velocities();
   /// Calls the observer if it is due. @return false if it wants the run to stop.
   bool observe();
@@ -77,7 +78,7 @@ class ExplicitStep {
   std::vector<Point> moments_;                                  // external, per rigid body
   LocalStability stability_;
   double next_increment_ = 0.0, last_increment_ = 0.0;
-  bool attention_ = false;
+  bool attention_ = true;               // the observer looks at this increment, and always at the start
   std::int64_t cycles_ = 0;             // computed by this run, which may have been restarted in mid-step
   std::optional<std::string> failure_;  // found by this rank, told to all in the next agreement
 };

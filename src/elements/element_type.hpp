@@ -22,6 +22,9 @@ struct ElementType {
   Section::Kind section = Section::Kind::solid;
   /// Local node numbers of each face, counter-clockwise seen from outside (membranes: SPOS then SNEG).
   std::vector<std::vector<int>> faces;
+  /// Nanoseconds of one core per element and explicit cycle, in the middle of the laws that balocco_bench measures (elastic to
+  /// Mooney-Rivlin, about a third to either side): estimates and the weights of the partition live on it.
+  double cycle_cost = 100.0;
   /// Builds the force kernel of one section's elements on one rank; null for MASS and ROTARYI, which only carry inertia.
   std::unique_ptr<ElementGroup> (*make_group)(const GroupInput&) = nullptr;
 };

@@ -16,6 +16,7 @@ const RegisterElement registered({.name = "C3D8",
                                   .integration_points = HexahedronShape::points,
                                   .section = Section::Kind::solid,
                                   .faces = hexahedron_faces(),
+                                  .cycle_cost = 470,
                                   .make_group = make_group});
 
 }  // namespace

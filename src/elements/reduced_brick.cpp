@@ -24,6 +24,7 @@ const RegisterElement registered({.name = "C3D8R",
                                   .integration_points = 1,
                                   .section = Section::Kind::solid,
                                   .faces = hexahedron_faces(),
+                                  .cycle_cost = 67,
                                   .make_group = make_group});
 
 }  // namespace

@@ -160,6 +160,7 @@ const RegisterElement t3d2({.name = "T3D2",
                             .integration_points = 1,
                             .section = Section::Kind::truss,
                             .faces = {},
+                            .cycle_cost = 7,
                             .make_group = [](const GroupInput& input) -> std::unique_ptr<ElementGroup> {
                               return std::make_unique<TrussGroup>(input);
                             }});

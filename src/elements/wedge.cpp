@@ -16,6 +16,7 @@ const RegisterElement registered({.name = "C3D6",
                                   .integration_points = WedgeShape::points,
                                   .section = Section::Kind::solid,
                                   .faces = wedge_faces(),
+                                  .cycle_cost = 275,
                                   .make_group = make_group});
 
 }  // namespace

@@ -98,7 +98,8 @@ class Summary {
   std::int64_t critical_element_ = -1;
   std::string critical_type_;
   double bytes_ = 0.0;
-  std::int64_t computed_elements_ = 0;
+  double nanoseconds_ = 0.0;             // of an explicit cycle on one core, elements alone
+  std::map<std::string, double> costs_;  // of an element, by the types that are computed
 };
 
 void Summary::counts() {
@@ -138,7 +139,8 @@ void Summary::add_group(const Part& part, MassProperties& properties) {
   }
   bytes_ +=
       static_cast<double>(group->bytes_per_element() + sizeof(double) * group->history_size()) * group->padded_size();
-  computed_elements_ += group->size();
+  nanoseconds_ += table.type->cycle_cost * group->size();
+  costs_[table.type->name] = table.type->cycle_cost;
   if (properties.mass <= 0.0) return;  // no density: no stable increment
   std::vector<double> position(4 * (model_.nodes.id.size() + 1)), velocity(position.size()), force(position.size());
   for (std::size_t node = 0; node < model_.nodes.id.size(); ++node) {
@@ -216,9 +218,7 @@ void Summary::time_lines() {
   }
   line("Stable increment of the undeformed model {:.6g}, element {} ({})", stable_increment_, critical_element_,
        critical_type_);
-  // A reduced brick takes about this long on one core of the machines that Balocco was measured on; other types up to
-  // ten times.
-  constexpr double seconds_per_element_cycle = 200e-9;
+  bool any_explicit = false;
   for (const auto& step : model_.steps) {
     if (step.procedure != Step::Procedure::explicit_dynamics) {
       line("Step {}: static, period {:.6g}", step.name, step.duration());
@@ -227,9 +227,15 @@ void Summary::time_lines() {
     const double increment =
         step.explicit_procedure.fixed_increment.value_or(stable_increment_ * step.explicit_procedure.scale_factor);
     const double cycles = step.duration() / increment;
+    any_explicit = true;
     line("Step {}: explicit, period {:.6g}, about {:.3g} increments, {:.3g} s on {} ranks", step.name, step.duration(),
-         cycles, cycles * static_cast<double>(computed_elements_) * seconds_per_element_cycle / ranks_, ranks_);
+         cycles, 1e-9 * cycles * nanoseconds_ / ranks_, ranks_);
   }
+  if (!any_explicit) return;
+  std::string assumed;
+  for (const auto& [type, cost] : costs_) assumed += fmt::format("{}{} {} ns", assumed.empty() ? "" : ", ", type, cost);
+  line("  assumed for an element in an increment: {} (middle of the laws on one core of the machine of balocco_bench), ranks "
+       "that share evenly, no contact, no output", assumed);
 }
 
 void Summary::memory_line() {

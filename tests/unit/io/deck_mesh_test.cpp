@@ -120,6 +120,28 @@ TEST(DeckAssembly, InstancesAreMovedAndRenumbered) {
   EXPECT_EQ(held, (std::vector<std::int32_t>{0, 2, 2, 1, 4}));
 }
 
+// Where a solid is inside out, the line of the keyword or data line that made it is told, whichever that is.
+TEST(DeckMesh, VolumesAreRefusedWhereTheElementComesFrom) {
+  const std::string nodes = "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 1, 1, 0\n4, 0, 1, 0\n5, 0, 0, 1\n6, 1, 0, 1\n7, 1, 1, 1\n8, 0, 1, 1\n";
+  const std::string law = "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.3\n", section = "*SOLID SECTION, ELSET=E, MATERIAL=M\n";
+  const auto refuses = [](const std::string& deck, const std::string& where, const std::map<std::string, std::string>& files = {}) {
+    const auto errors = errors_of(deck, files);
+    EXPECT_NE(errors.find(where + ": error: *ELEMENT: element "), std::string::npos) << errors;
+    EXPECT_NE(errors.find("has a negative volume"), std::string::npos) << errors;
+  };
+  const std::string inverted = "5, 6, 7, 8, 1, 2, 3, 4\n";
+  refuses(nodes + "*INCLUDE, INPUT=more.inp\n" + law + section, "more.inp:2",
+          {{"more.inp", "*ELEMENT, TYPE=C3D8R, ELSET=E\n1, " + inverted}});
+  // The copy joins the set, the good original stays: nodes shifted down by four turn the brick inside out.
+  refuses("*NODE\n11, 0, 0, -1\n12, 1, 0, -1\n13, 1, 1, -1\n14, 0, 1, -1\n15, 0, 0, -2\n16, 1, 0, -2\n17, 1, 1, -2\n18, 0, 1, -2\n" +
+              nodes + "*ELEMENT, TYPE=C3D8R, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+              "*ELCOPY, ELEMENT SHIFT=10, OLD SET=E, SHIFT NODES=10, NEW SET=E\n" + law + section,
+          "job.inp:21");
+  refuses("*PART, NAME=P\n" + nodes + "*ELEMENT, TYPE=C3D8R, ELSET=E\n1, " + inverted + section +
+              "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n*END INSTANCE\n*END ASSEMBLY\n" + law,
+          "job.inp:12");
+}
+
 TEST(DeckMesh, MembraneMayOnlyLieOnItsNodes) {
   const std::string sheet =
       "*NODE\n1, 0, 0, 0\n2, 1, 0, 0\n3, 0, 1, 0\n*ELEMENT, TYPE=M3D3, ELSET=E\n1, 1, 2, 3\n"
