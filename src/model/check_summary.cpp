@@ -234,8 +234,9 @@ void Summary::time_lines() {
   if (!any_explicit) return;
   std::string assumed;
   for (const auto& [type, cost] : costs_) assumed += fmt::format("{}{} {} ns", assumed.empty() ? "" : ", ", type, cost);
-  line("  assumed for an element in an increment: {} (middle of the laws on one core of the machine of balocco_bench), ranks "
-       "that share evenly, no contact, no output", assumed);
+  line("  assumed: {} for an element in an increment (middle of the laws that balocco_bench measures on one core), ranks that "
+       "share evenly, no contact and no output, the increment of the undeformed model (deformation and contact shorten it)",
+       assumed);
 }
 
 void Summary::memory_line() {

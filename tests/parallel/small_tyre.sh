@@ -26,6 +26,20 @@ start_rolling() {
   until grep -q "ROLL" "$1/small_tyre.sta"; do kill -0 "$job"; sleep 0.02; done
 }
 
+# interrupt_rolling FOLDER COMMAND...: COMMAND ends such a run, whose exit status is left in $status. A job that had ended by then
+# has proved nothing: again.
+interrupt_rolling() {
+  for attempt in 1 2 3 4 5; do
+    start_rolling "$1"
+    "${@:2}"
+    status=0
+    wait "$job" || status=$?
+    [ "$status" -eq 0 ] || return 0
+  done
+  echo "the job ended each time before it was interrupted"
+  return 1
+}
+
 rm -rf "$folder"
 mkdir -p "$folder"
 "$balocco" tyre "$here/small_tyre.toml" --output "$folder/small_tyre.inp" >"$folder/builder.out"
