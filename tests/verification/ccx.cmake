@@ -1,5 +1,5 @@
 # The same decks as CalculiX 2.20: its printed results stand beside them in ccx/, so that it need not be installed.
-foreach(case elastic rubber loads sheets bars tripod)
+foreach(case elastic rubber loads sheets bars tripod faces)
   add_test(NAME ccx_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/ccx_cases.py ${case} $<TARGET_FILE:balocco>
                    ${CMAKE_CURRENT_BINARY_DIR}/ccx_${case})
