@@ -2,7 +2,8 @@
 
 ccx/NAME.inp and ccx/NAME.dat: the deck and what `ccx -i NAME` of CalculiX 2.20 printed for it. Deformations are homogeneous in
 each block, so that no choice of integration, volumetric averaging or hourglass control enters: distorted C3D8 and C3D6, skewed
-C3D8R. (A C3D6 that stands alone cannot be compared: ccx integrates it at two points and leaves motions unresisted.) CalculiX's *ELASTIC with NLGEOM is St. Venant-Kirchhoff's law, as here; its neo-Hooke and Mooney-Rivlin are Abaqus's.
+C3D8R. (A C3D6 that stands alone cannot be compared: ccx integrates it at two points and leaves motions unresisted.) CalculiX's
+*ELASTIC with NLGEOM is St. Venant-Kirchhoff's law, as here; its neo-Hooke and Mooney-Rivlin are Abaqus's.
 SHARED holds decks of CalculiX's own test suite with their references; without it those cases are skipped.
 """
 import glob
