@@ -52,7 +52,11 @@ class StaticStep {
   void finish_increment(const IncrementGoal& goal);
   void add_work(const IncrementGoal& goal);
   void guess_damping(double time_increment);
-  void choose_damping(const IncrementGoal& goal);
+  void choose_damping(std::span<const double> motion, double time_increment);
+  void choose_damping_again();
+  bool chooses_damping() const {
+    return fresh_ && !taken_up_ && step_.static_procedure.stabilize && follows_geometry();
+  }
   void find_applied_forces(const IncrementGoal& goal, std::vector<double>& applied) const;
   void store_reactions();
   void log_totals(double seconds);
@@ -67,7 +71,8 @@ class StaticStep {
   StaticLinearSolver solver_;
   StaticNewton newton_;
   double total_start_ = 0.0;
-  bool fresh_ = true;  // no increment of this step has been made in this run
+  bool fresh_ = true;                                      // no increment of this step has been made in this run
+  const bool taken_up_ = analysis_.current.increment > 0;  // from a checkpoint inside the step
   double damping_ = 0.0;
   std::vector<double> applied_;      // per slot: loads, reactions and fading forces at the end of the last increment
   std::vector<double> last_motion_;  // per slot, over the last increment of `last_increment_`
@@ -105,7 +110,7 @@ void StaticStep::find_start() {
 
 Outcome StaticStep::run() {
   const double begin = MPI_Wtime();
-  if (!follows_geometry() && analysis_.current.increment > 0)
+  if (taken_up_ && !follows_geometry())
     throw InputError(fmt::format(
         "{}: error: *STATIC: the checkpoint lies inside step '{}', which is linear and counts from where it began; run "
         "the job without --restart, or give the step NLGEOM",
@@ -119,6 +124,7 @@ Outcome StaticStep::run() {
     observer_.log("  contact needs iterations: the step runs as if NLGEOM=YES");
   if (procedure.stabilize && !follows_geometry())
     observer_.log("  STABILIZE has nothing to stabilise in a linear step");
+  if (taken_up_ && procedure.stabilize) choose_damping_again();
   const auto outcome = march();
   log_totals(MPI_Wtime() - begin);
   return outcome;
@@ -128,9 +134,9 @@ Outcome StaticStep::march() {
   const auto& procedure = step_.static_procedure;
   auto& state = analysis_.current;
   // A step taken up again goes on with the increment that it had come to.
-  const bool taken_up = state.increment > 0 && state.time_increment != 0.0;
-  double suggested = taken_up ? std::abs(state.time_increment) : procedure.initial_increment;
-  int easy = taken_up && state.time_increment < 0.0 ? 1 : 0, failures = 0;
+  const bool told = taken_up_ && state.time_increment != 0.0;
+  double suggested = told ? std::abs(state.time_increment) : procedure.initial_increment;
+  int easy = told && state.time_increment < 0.0 ? 1 : 0, failures = 0;
   bool stopping = false;
   while (remaining_time() > 0.0) {
     if (state.increment >= procedure.maximum_increments)
@@ -194,7 +200,7 @@ IncrementGoal StaticStep::goal_of(double time_increment) const {
 NewtonResult StaticStep::attempt(double time_increment) {
   auto goal = goal_of(time_increment);
   if (!follows_geometry()) return solve_linearly(goal);
-  if (step_.static_procedure.stabilize && fresh_) {
+  if (chooses_damping()) {
     guess_damping(time_increment);
     goal = goal_of(time_increment);
   }
@@ -272,11 +278,10 @@ void StaticStep::guess_damping(double time_increment) {
                mass[1] / mass[0];
 }
 
-/// Viscosity of the rest of the step: had it acted over the first increment alone, it would have dissipated the given
-/// fraction of the work done on the structure.
-void StaticStep::choose_damping(const IncrementGoal& goal) {
+/// Viscosity of the rest of the step: had it acted over the first increment alone, which moved the slots by `motion`,
+/// it would have dissipated the given fraction of the work done on the structure.
+void StaticStep::choose_damping(std::span<const double> motion, double time_increment) {
   std::array<double, 2> sums{};  // work, and sum of mass * motion^2
-  const auto& motion = newton_.increment();
   for (const auto slot : system_.map().owned_slots()) {
     if (system_.map().role(slot) == StaticDofMap::Role::absent) continue;
     sums[0] += 0.5 * std::abs(applied_[slot] * motion[slot]);
@@ -284,9 +289,17 @@ void StaticStep::choose_damping(const IncrementGoal& goal) {
   }
   analysis_.communicator.sum(std::span<double>(sums));
   if (sums[0] > 0.0 && sums[1] > 0.0)
-    damping_ = step_.static_procedure.dissipated_energy_fraction * sums[0] * goal.time_increment / sums[1];
+    damping_ = step_.static_procedure.dissipated_energy_fraction * sums[0] * time_increment / sums[1];
   observer_.log(
       fmt::format("  stabilised by viscous forces {:.4g} * mass * velocity, which fade over the step", damping_));
+}
+
+/// The first increment of a step that was taken up is gone. Work / (mass * motion^2) of a straight path does not depend
+/// on how far it went: that of the whole way so far stands for it.
+void StaticStep::choose_damping_again() {
+  std::vector<double> way(system_.map().slots());
+  for (std::int32_t slot = 0; slot < system_.map().slots(); ++slot) way[slot] = system_.displacement(slot);
+  choose_damping(way, step_.static_procedure.initial_increment);
 }
 
 /// What acts on each slot from outside, in its directions: loads, reactions of prescribed motions, fading forces. On
@@ -362,7 +375,7 @@ void StaticStep::finish_increment(const IncrementGoal& goal) {
   system_.commit();
   add_work(goal);
   store_reactions();
-  if (fresh_ && step_.static_procedure.stabilize && follows_geometry()) choose_damping(goal);
+  if (chooses_damping()) choose_damping(newton_.increment(), goal.time_increment);
   fresh_ = false;
   state.step_time = goal.step_time;
   state.total_time = goal.total_time;
