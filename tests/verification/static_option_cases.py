@@ -77,7 +77,7 @@ def snap_through(runner):
 
     done, _ = runner.launch("stuck", arch(2.0 * limit, ""), 1)
     assert done.returncode == 3, "without stabilisation the arch got through: exit status %d" % done.returncode
-    results = runner.run_alike("snapped", arch(2.0 * limit, ", STABILIZE"))
+    results = runner.run("snapped", arch(2.0 * limit, ", STABILIZE"), 2)
     roots = np.roots([-1.0, 0.0, rise**2, -2.0 * limit * length**3 / (young * area)])
     z = min(root.real for root in roots if abs(root.imag) < 1e-9)
     close(results.at(3, "U")[2], z - rise, 1e-8, "motion of the apex")
@@ -125,7 +125,7 @@ def gravity(runner):
         for nlgeom, target in (("", "ALL"), (", NLGEOM", "ALL"), (", NLGEOM", "LOWER")):
             deck.add("*STEP%s\n*STATIC\n1., 1.\n*BOUNDARY\nTOP, 1, 3\n*DLOAD, OP=NEW" % nlgeom)
             deck.add("%s, GRAV, %g, 0., 0., -1." % (target, acceleration) + OUTPUT + "*END STEP")
-        results = runner.run_alike("gravity_" + kind.lower(), deck)
+        results = runner.run("gravity_" + kind.lower(), deck, 2)
         for step, share, weight in ((1, 1.0, 1.0), (2, 1.0, 1.0), (3, 0.75, 0.5)):
             close(results.at(1, "U", step)[2], -share * whole, 1e-5, "%s step %d: motion of the lower end" % (kind, step))
             reaction = sum(results.at(n, "RF", step)[2] for n in deck.sets["TOP"])
@@ -145,7 +145,7 @@ def moment(runner):
     deck.add(ELASTIC.format(young=young, poisson=0.0))
     deck.add("*STEP, NLGEOM, INC=200\n*STATIC\n0.1, 1., 1e-5, 0.2\n*BOUNDARY\nROOT, 1, 3")
     deck.add("*CLOAD\n9001, 4, %.17g" % (-stiffness * angle / length) + OUTPUT + ENERGY + "*END STEP")
-    results = runner.run_alike("moment", deck)
+    results = runner.run("moment", deck, 2)
     u = results.at(9001, "U")
     close(results.at(9001, "UR")[1], -angle, 5e-3, "rotation M L / EI")
     close(u[0], length * (math.sin(angle) / angle - 1.0), 1e-2, "u")
@@ -237,16 +237,16 @@ def same_job(whole, other, tolerance):
 
 
 def interrupted(runner):
-    """A job stopped inside both of its static steps and taken up on other numbers of ranks goes on with the increments that it had
-    come to, and ends where one ends that was left alone. What differs is where Newton starts from, and so perhaps later increments;
+    """A job stopped inside a static step and taken up on another number of ranks goes on with the increments that it had come to,
+    and ends where one ends that was left alone. What differs is where Newton starts from, and so perhaps later increments;
     elastic bodies have forgotten that when a step ends at 1e-9 of the forces, friction keeps what it makes of the path."""
     for name, deck, tolerance in (("nonlinear", bent_strip(", NLGEOM"), 1e-8), ("road", rubbed_cube(), 1e-6)):
         whole = runner.run(name, deck)
         stop_at_once(runner, name, deck, 2, ())
-        stop_at_once(runner, name, deck, 1, ("--restart",))
-        runner.run(name, deck, 2, ("--restart", "--until", "STEP-1"), "stopped_" + name)
-        stop_at_once(runner, name, deck, 1, ("--restart",))
-        same_job(whole, runner.run(name, deck, 2, ("--restart",), "stopped_" + name), tolerance)
+        if name == "road":  # in its second step, too
+            runner.run(name, deck, 1, ("--restart", "--until", "STEP-1"), "stopped_" + name)
+            stop_at_once(runner, name, deck, 2, ("--restart",))
+        same_job(whole, runner.run(name, deck, 1, ("--restart",), "stopped_" + name), tolerance)
 
 
 def linear_interrupted(runner):
