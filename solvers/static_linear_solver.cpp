@@ -94,12 +94,19 @@ void StaticLinearSolver::set_near_null_space(const Analysis& analysis) {
   for (auto& vector : vectors) petsc(VecDestroy(&vector));
 }
 
-bool StaticLinearSolver::solve_vectors(Vec right_hand_side, Vec solution) {
+bool StaticLinearSolver::solve_vectors(Mat matrix, Vec right_hand_side, Vec solution) {
   const double start = MPI_Wtime();
+  petsc(KSPSetOperators(solver_, matrix, matrix));
   petsc(KSPSolve(solver_, right_hand_side, solution));
   seconds_ += MPI_Wtime() - start;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
   petsc(KSPGetConvergedReason(solver_, &reason));
+  if (reason == KSP_DIVERGED_PC_FAILED) {
+    // After a factorisation that broke down PETSc's interface to MUMPS would skip the next one.
+    PC preconditioner = nullptr;
+    petsc(KSPGetPC(solver_, &preconditioner));
+    petsc(PCReset(preconditioner));
+  }
   double norm = 0.0;
   petsc(VecNorm(solution, NORM_INFINITY, &norm));
   return reason > 0 && std::isfinite(norm);
@@ -110,8 +117,7 @@ bool StaticLinearSolver::solve(std::span<const double> right_hand_side, std::spa
   petsc(VecGetArray(right_hand_side_, &values));
   std::ranges::copy(right_hand_side, values);
   petsc(VecRestoreArray(right_hand_side_, &values));
-  petsc(KSPSetOperators(solver_, matrix_, matrix_));
-  const bool solved = solve_vectors(right_hand_side_, solution_);
+  const bool solved = solve_vectors(matrix_, right_hand_side_, solution_);
   const double* result = nullptr;
   petsc(VecGetArrayRead(solution_, &result));
   std::copy_n(result, solution.size(), solution.data());
@@ -159,16 +165,13 @@ std::string StaticLinearSolver::mechanism() {
   for (std::size_t i = 0; i < map_.owned_free_slots().size(); ++i)
     values[i] = noise(map_.first_equation() + static_cast<PetscInt>(i));
   petsc(VecRestoreArray(force, &values));
-  if (!solve_vectors(force, motion)) {
+  if (!solve_vectors(matrix_, force, motion)) {
     // The factorisation broke down: a touch of stiffness everywhere lets it through, and the mechanism still stands
     // out.
     PetscMatrix stiffened;
     petsc(MatDuplicate(matrix_, MAT_COPY_VALUES, stiffened.address()));
     petsc(MatShift(stiffened, 1e-12 * average));
-    petsc(KSPSetOperators(solver_, stiffened, stiffened));
-    const bool solved = solve_vectors(force, motion);
-    petsc(KSPSetOperators(solver_, matrix_, matrix_));
-    return solved ? largest_component(motion) : "no dof stands out";
+    return solve_vectors(stiffened, force, motion) ? largest_component(motion) : "no dof stands out";
   }
   double force_norm = 0.0, motion_norm = 0.0;
   petsc(VecNorm(force, NORM_2, &force_norm));

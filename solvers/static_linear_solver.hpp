@@ -31,7 +31,7 @@ class StaticLinearSolver {
  private:
   void set_defaults();
   void set_near_null_space(const Analysis& analysis);
-  bool solve_vectors(Vec right_hand_side, Vec solution);
+  bool solve_vectors(Mat matrix, Vec right_hand_side, Vec solution);
   std::string unresisted_equation();
   std::string largest_component(Vec vector);
 

@@ -256,6 +256,22 @@ def ring(runner):
         close(np.abs(results.at(n, "U") - 0.01 * np.array(deck.nodes[n])).max(), 0.0, 1e-12, "radial motion of node %d" % n)
 
 
+def flat_sheet(runner):
+    """Four M3D4 squares in a plane, held around, pushed at the middle node: flat, nothing resists the push. Then, with shape
+    function x y of a square and 2 x 2 points, energy (11 / 72) t E / (1 - nu^2) w^4 each: F = (11 / 9) t E / (1 - nu^2) w^3."""
+    young, poisson, thickness, force = 210000.0, 0.3, 0.01, 1e-3
+    deck = Deck()
+    for n in range(9):
+        deck.add_node(n + 1, n % 3 - 1.0, n // 3 - 1.0, 0.0)
+    deck.elements["M3D4"] = [(e + 1, [n, n + 1, n + 4, n + 3]) for e, n in enumerate((1, 2, 4, 5))]
+    deck.sets["EDGE"] = [1, 2, 3, 4, 6, 7, 8, 9]
+    deck.add("*MEMBRANE SECTION, ELSET=ALL, MATERIAL=M\n%g\n*MATERIAL, NAME=M\n*ELASTIC\n%g, %g" % (thickness, young, poisson))
+    deck.add("*STEP, NLGEOM\n*STATIC\n*BOUNDARY\nEDGE, 1, 3\n*CLOAD\n5, 3, %g" % -force + OUTPUT + "*END STEP")
+    results = runner.run_alike("flat_sheet", deck)
+    deflection = (force / (11.0 / 9.0 * thickness * young / (1.0 - poisson**2))) ** (1.0 / 3.0)
+    close(-results.at(5, "U")[2] / deflection, 1.0, 1e-6, "deflection")  # where Newton stops
+
+
 def mechanism(runner):
     """A bar that may turn about its own axis: refused with the node and dof, on one rank and on two."""
     deck = brick((2, 1, 1), (2.0, 1.0, 1.0))
@@ -284,6 +300,7 @@ CASES = {
     "road": road,
     "touchdown": touchdown,
     "ring": ring,
+    "flat_sheet": flat_sheet,
     "mechanism": mechanism,
 }
 
