@@ -56,12 +56,13 @@ class SpecTable {
   /// Names of the sub-tables, sorted.
   std::vector<std::string> table_names();
   void fault(std::string_view key, std::string_view what_and_cure);
+  /// Line of the file where the key stands, or the table if it does not.
+  std::size_t line_of(std::string_view key) const;
   /// Reports every key that nothing asked for. Call after the last value was read.
   void refuse_unknown();
 
  private:
   const toml::value* find(std::string_view key, bool required);
-  std::size_t line_of(std::string_view key) const;
 
   const toml::value* value_;  // null: the table is missing, which has been reported
   std::string name_;

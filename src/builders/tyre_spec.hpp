@@ -60,12 +60,14 @@ struct RegionSpec {
   std::vector<SectionPoint> points;
   int elements = 0;
   std::vector<int> plies;  // rows of TyreSpec::plies, from outside to inside
+  std::size_t line = 1;    // of the file, where the points stand
 };
 
 struct BeadSpec {
   double area = 0.0;  // mm2 of wire a side
   double modulus = 0.0, poisson = 0.0, density = 0.0;
   double bottom = 0.0, top = 0.0;  // mm above the toe between which the bundle of wires lies
+  std::size_t line = 1;            // of the file, where the bottom stands
 };
 
 struct RimSpec {

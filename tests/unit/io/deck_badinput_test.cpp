@@ -11,7 +11,7 @@
 namespace balocco {
 namespace {
 
-const std::filesystem::path folder = std::filesystem::path(__FILE__).parent_path() / "../../badinput/decks";
+const std::filesystem::path folder = BALOCCO_TEST_DECKS;
 
 std::vector<std::string> decks() {
   std::vector<std::string> paths;

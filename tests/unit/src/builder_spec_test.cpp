@@ -7,6 +7,7 @@
 #include "builder_sample.hpp"
 #include "builders/spec_table.hpp"
 #include "builders/tyre_lamina.hpp"
+#include "builders/tyre_section.hpp"
 #include "builders/tyre_spec.hpp"
 #include "model/diagnostics.hpp"
 
@@ -81,6 +82,21 @@ TEST(TyreSpec, RefusesImpossibleGeometry) {
       std::string::npos);
   EXPECT_NE(faults_with("top_fillet = 4.0", "top_fillet = 24.0").find("higher than the obstacle"), std::string::npos);
   EXPECT_NE(faults_with("ahead = 1000.0", "ahead = 500.0").find("leaves the road"), std::string::npos);
+}
+
+TEST(TyreSection, TellsTheLineOfWhatCannotBeMeshed) {
+  const auto said = [](const std::string& text) {
+    try {
+      make_section(read_tyre_spec(text, "t.toml"));
+    } catch (const InputError& error) {
+      return error.messages().front();
+    }
+    return std::string("accepted");
+  };
+  const auto thick = sample_with("[192.5, 58.7, 6.5, 3.5]", "[192.5, 58.7, 90.0, 3.5]");
+  EXPECT_EQ(said(thick).find(at_line_of("[192.5", thick) + ": error: [section] points: the rubber"), 0u) << said(thick);
+  const auto narrow = sample_with("bottom = 5.0", "bottom = 12.99");
+  EXPECT_EQ(said(narrow).find(at_line_of("bottom = 12.99", narrow) + ": error: [bead_wire] bottom: no node"), 0u) << said(narrow);
 }
 
 TEST(TyreSpec, CollectsAllFaults) {

@@ -99,17 +99,6 @@ TEST(TyreSection, IsSymmetricAndTouchesTheRim) {
   EXPECT_NEAR(built.section.seat_shift, 56.5 + 11.0 - 63.5, 0.05);  // the line ends almost radially
 }
 
-TEST(TyreSection, RefusesRubberThatFoldsOverItself) {
-  std::string report;
-  EXPECT_THROW(build_tyre(sample_with("[192.5, 58.7, 6.5, 3.5]", "[192.5, 58.7, 90.0, 3.5]"), "t.toml", report),
-               InputError);
-}
-
-TEST(TyreSection, TellsWhenNoNodeCanCarryTheBeadWire) {
-  std::string report;
-  EXPECT_THROW(build_tyre(sample_with("top = 13.0", "top = 5.1"), "t.toml", report), InputError);
-}
-
 TEST(TyreMesh, MembranesCloseAroundTheTyreWithNormalsOutwards) {
   const auto built = build(3);
   const auto& membranes = built.model.elements[built.mesh.membranes];
