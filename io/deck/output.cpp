@@ -60,7 +60,7 @@ void begin_field(Builder& builder, const Block& block) {
   FieldOutput output = block.has("VARIABLE") ? preselected_field() : FieldOutput{};
   if (block.value("VARIABLE") == "ALL") {
     output.node_variables = node_vectors;
-    output.element_variables = {"ALL"};
+    output.element_variables = all_element;
     output.contact_variables = contact_fields;
   }
   output.single_precision = block.value("PRECISION", "SINGLE") == "SINGLE";
@@ -187,10 +187,13 @@ void finish_output(Builder& builder) {
     default_times(step);
     for (auto& output : step.field_outputs) {
       for (auto* variables : {&output.element_variables, &output.integration_point_variables}) {
-        if (*variables == Words{"ALL"}) *variables = {"S", "LE", "MISES", "SENER", "STH", "ELSE", "ELASE"};
         std::erase_if(*variables, [&](const std::string& name) { return !exists(name); });
       }
       if (model.contact_pairs.empty()) output.contact_variables.clear();
+    }
+    for (auto& output : step.history_outputs) {
+      for (auto& elements : output.elements)
+        std::erase_if(elements.variables, [&](const std::string& name) { return !exists(name); });
     }
   }
 }

@@ -54,10 +54,8 @@ void read_contact_output(Builder& builder, const Block& block) {
                          "for the resultants of a pair under *OUTPUT, HISTORY");
   }
   auto& output = builder.model.steps.back().field_outputs[builder.draft.first_field];
-  if (is_preselect(block)) {
-    for (const auto& variable : block.value("VARIABLE") == "ALL" ? contact_fields : preselected_contact)
-      add(output.contact_variables, variable);
-  }
+  for (const auto& variable : asked_by_variable(block, preselected_contact, contact_fields))
+    add(output.contact_variables, variable);
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     // CSTRESS and CDISP are Abaqus's names for the groups.
     if (variable == "CSTRESS") return add(output.contact_variables, "CPRESS"), add(output.contact_variables, "CSHEAR");
@@ -73,7 +71,7 @@ void read_energy_output(Builder& builder, const Block& block) {
     return builder.error(block, block.location, "it belongs under *OUTPUT, HISTORY; move it there");
   if (builder.draft.output != StepDraft::Output::history) return;
   auto& output = builder.model.steps.back().history_outputs.back();
-  if (is_preselect(block) || block.lines.empty()) output.energies = energies;
+  if (block.has("VARIABLE") || block.lines.empty()) output.energies = energies;
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     if (!contains(energies, variable)) return unknown_variable(builder, block, row, variable, energies);
     add(output.energies, variable);

@@ -62,10 +62,8 @@ void read_node_field(Builder& builder, const Block& block) {
   const auto set = block.has("NSET") ? node_set(builder, block) : -1;
   if (!set) return;
   auto& output = field_for(builder, &FieldOutput::node_set, *set);
-  if (is_preselect(block)) {
-    for (const auto& variable : block.value("VARIABLE") == "ALL" ? node_vectors : preselected_node)
-      add(output.node_variables, variable);
-  }
+  for (const auto& variable : asked_by_variable(block, preselected_node, node_vectors))
+    add(output.node_variables, variable);
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     if (!contains(node_vectors, variable)) return unknown_variable(builder, block, row, variable, node_vectors);
     add(output.node_variables, variable);
@@ -78,7 +76,7 @@ void read_node_history(Builder& builder, const Block& block) {
   if (!set) return;
   HistoryOutput::Nodes request;
   request.set = *set;
-  if (is_preselect(block)) request.variables = preselected_node;
+  request.variables = asked_by_variable(block, preselected_node, node_vectors);
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     if (!is_node_history(variable)) return unknown_variable(builder, block, row, variable, node_vectors);
     add(request.variables, variable);
@@ -97,9 +95,7 @@ void read_element_field(Builder& builder, const Block& block) {
   auto& output = field_for(builder, &FieldOutput::element_set, *set);
   const bool at_points = squeeze(block.value("POSITION")) == "INTEGRATIONPOINTS";
   auto& target = at_points ? output.integration_point_variables : output.element_variables;
-  if (is_preselect(block)) {
-    for (const auto& variable : preselected_element) add(target, variable);
-  }
+  for (const auto& variable : asked_by_variable(block, preselected_element, all_element)) add(target, variable);
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     add(target, variable);
     builder.asked_element_variables.push_back({variable, row.location()});
@@ -112,7 +108,7 @@ void read_element_history(Builder& builder, const Block& block) {
   if (!set) return;
   HistoryOutput::Elements request;
   request.set = *set;
-  if (is_preselect(block)) request.variables = preselected_element;
+  request.variables = asked_by_variable(block, preselected_element, all_element);
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
     add(request.variables, variable);
     builder.asked_element_variables.push_back({variable, row.location()});

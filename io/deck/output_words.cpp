@@ -16,6 +16,7 @@ const Words energies{"ALLKE", "ALLIE", "ALLSE", "ALLPD", "ALLVD", "ALLAE", "ALLF
 const Words preselected_node{"U", "V", "A", "RF"};
 const Words preselected_element{"S", "LE", "MISES"};
 const Words preselected_contact{"CPRESS", "CSHEAR", "COPEN"};
+const Words all_element{"S", "LE", "MISES", "PRESS", "SENER", "STH", "ELSE", "ELASE"};
 
 namespace {
 
@@ -23,7 +24,7 @@ namespace {
 // to refuse.
 const Words abaqus_only{
     "CF",      "COORD",    "TF",       "RT",      "UT",     "VT",    "AT",      "NT",     "CM1",     "E",
-    "EE",      "NE",       "PE",       "PEEQ",    "PEMAG",  "PEEQT", "EVOL",    "IVOL",    "ELKE",
+    "EE",      "NE",       "PE",       "PEEQ",    "PEMAG",  "PEEQT", "EVOL",  "IVOL",    "ELKE",
     "ELPD",    "PRESS",    "TRIAX",    "DENSITY", "STATUS", "SF",    "SE",      "ER",     "EVF",     "SVAVG",
     "PEVAVG",  "PEEQVAVG", "CNAREA",   "CSTATUS", "CFS",    "ALLCD", "ALLDMD",  "ALLEE",  "ALLJD",   "ALLKL",
     "ALLQB",   "ALLSD",    "ALLVE",    "ALLDC",   "ALLMW",  "ALLPW", "ALLCCDW", "ALLCCE", "ALLCCEN", "ALLCCET",
@@ -51,8 +52,9 @@ void unknown_variable(Builder& builder, const Block& block, Row& row, const std:
                         did_you_mean(variable, known), join(known)));
 }
 
-bool is_preselect(const Block& block) {
-  return block.value("VARIABLE") == "PRESELECT" || block.value("VARIABLE") == "ALL";
+Words asked_by_variable(const Block& block, const Words& preselected, const Words& all) {
+  if (!block.has("VARIABLE")) return {};
+  return block.value("VARIABLE") == "ALL" ? all : preselected;
 }
 
 }  // namespace balocco::deck

@@ -14,6 +14,8 @@ using Words = std::vector<std::string>;
 extern const Words node_vectors, contact_fields, contact_histories, energies;
 // What VARIABLE=PRESELECT stands for.
 extern const Words preselected_node, preselected_element, preselected_contact;
+/// What VARIABLE=ALL stands for; finish_output leaves what the elements of the model have.
+extern const Words all_element;
 
 bool contains(const Words& words, const std::string& word);
 /// Appends a word that is not there yet.
@@ -24,8 +26,8 @@ bool is_abaqus_only(const std::string& variable);
 /// A warning for what only Abaqus writes, an error with the nearest known word for the rest.
 void unknown_variable(Builder& builder, const Block& block, Row& row, const std::string& variable, const Words& known);
 
-/// VARIABLE=PRESELECT or ALL.
-bool is_preselect(const Block& block);
+/// What the block's VARIABLE= asks for: `preselected`, `all`, or nothing without the parameter.
+Words asked_by_variable(const Block& block, const Words& preselected, const Words& all);
 
 /// Calls use(name, row) for every variable on the data lines.
 template <class Use>

@@ -34,7 +34,7 @@ class FullSolid final : public ElementGroup {
                            std::span<const double> history) const override;
   int point_components(std::string_view variable) const override { return solid_output_components(variable); }
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
-              std::span<const double>, std::span<double> values) const override {
+                    std::span<const double>, std::span<double> values) const override {
     const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, position), reference(element));
     solid_output(variable, material_, k.modified[integration_point], {}, values);
   }

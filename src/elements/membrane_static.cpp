@@ -162,8 +162,8 @@ int MembraneGroup<corners, points>::point_components(std::string_view variable) 
 
 template <int corners, int points>
 void MembraneGroup<corners, points>::point_output(std::string_view variable, std::int32_t element, int integration_point,
-                                          const double* position, std::span<const double> history,
-                                          std::span<double> values) const {
+                                                  const double* position, std::span<const double> history,
+                                                  std::span<double> values) const {
   using Kernel = MembraneKernel<double, corners, points>;
   const Law<PointKind::plane>& law = *section_data_.law;
   const double* const data = reference(element);

@@ -98,7 +98,7 @@ int ReducedBrick::point_components(std::string_view variable) const {
 }
 
 void ReducedBrick::point_output(std::string_view variable, std::int32_t element, int, const double* position,
-                          std::span<const double> history, std::span<double> values) const {
+                                std::span<const double> history, std::span<double> values) const {
   const Matrix3<double> f = mean_deformation_gradient(coefficients_of<double>(element, position), reference(element));
   solid_output(variable, material_, f, history.subspan(own_history), values);
 }

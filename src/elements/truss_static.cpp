@@ -66,7 +66,7 @@ int TrussGroup::point_components(std::string_view variable) const {
 }
 
 void TrussGroup::point_output(std::string_view variable, std::int32_t element, int, const double* position,
-                        std::span<const double> history, std::span<double> values) const {
+                              std::span<const double> history, std::span<double> values) const {
   const std::array<double, 1> strain{strain_at(element, position)};
   const double square = 1.0 + 2.0 * strain[0], area_ratio = law_->transverse_stretch(strain);
   if (variable == "LE") {

@@ -163,6 +163,18 @@ TEST(DeckStep, FieldOutputOfASetIsKeptApart) {
   }
 }
 
+TEST(DeckStep, AllIsMoreThanThePreselection) {
+  const std::vector<std::string> of_a_brick{"S", "LE", "MISES", "PRESS", "SENER", "ELSE", "ELASE"};
+  const auto steps = steps_of(
+      "*STEP\n*STATIC\n*OUTPUT, FIELD\n*ELEMENT OUTPUT, VARIABLE=ALL\n*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=ALLN, VARIABLE=ALL\n"
+      "*ELEMENT OUTPUT, ELSET=ALL, VARIABLE=ALL\n*END STEP\n"
+      "*STEP\n*STATIC\n*OUTPUT, FIELD, VARIABLE=ALL\n*ELEMENT OUTPUT\nS\n*END STEP\n");
+  EXPECT_EQ(steps[0].field_outputs[0].element_variables, of_a_brick);
+  EXPECT_EQ(steps[0].history_outputs[0].elements[0].variables, of_a_brick);
+  EXPECT_EQ(steps[0].history_outputs[0].nodes[0].variables.size(), 8u);
+  EXPECT_EQ(steps[1].field_outputs[0].element_variables, of_a_brick);
+}
+
 TEST(DeckStep, ContactFieldsOfOneOfTwoPairsAreRefused) {
   const std::string pairs =
       "*NODE\n100, 0., 0., 0.\n101, 0., 0., 0.\n*SURFACE, NAME=BOTTOM, TYPE=ELEMENT\nALL, S1\n"

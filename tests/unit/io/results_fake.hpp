@@ -34,7 +34,7 @@ class Group : public ElementGroup {
   }
   /// S: first history value + 10 x point + component.
   void point_output(std::string_view variable, std::int32_t, int point, const double*, std::span<const double> history,
-              std::span<double> values) const override {
+                    std::span<double> values) const override {
     for (std::size_t c = 0; c < values.size(); ++c) {
       values[c] = history[0] + (variable == "S" ? 10.0 * point + static_cast<double>(c) : 0.25);
     }
