@@ -7,7 +7,7 @@
 #include <map>
 
 #include "elements/element_type.hpp"
-#include "elements/membrane_section.hpp"
+#include "sections/membrane_section.hpp"
 #include "materials/material_law.hpp"
 #include "math/tensor.hpp"
 #include "model/diagnostics.hpp"

@@ -10,7 +10,7 @@
 #include "communicator.hpp"
 #include "constraints/nodal_directions.hpp"
 #include "domain.hpp"
-#include "elements/pressure_faces.hpp"
+#include "loads/pressure_faces.hpp"
 #include "model/model.hpp"
 #include "model/results.hpp"
 #include "model/state.hpp"

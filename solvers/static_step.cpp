@@ -7,10 +7,10 @@
 
 #include "model/diagnostics.hpp"
 #include "procedures.hpp"
-#include "static_linear_solver.hpp"
-#include "static_newton.hpp"
-#include "static_prescribed.hpp"
-#include "static_system.hpp"
+#include "implicit_linear_solver.hpp"
+#include "implicit_newton.hpp"
+#include "implicit_prescribed.hpp"
+#include "implicit_system.hpp"
 
 namespace balocco {
 
@@ -66,10 +66,10 @@ class StaticStep {
   Analysis& analysis_;
   const Step& step_;
   Observer& observer_;
-  StaticDrive drive_;
-  StaticSystem system_;
-  StaticLinearSolver solver_;
-  StaticNewton newton_;
+  ImplicitDrive drive_;
+  ImplicitSystem system_;
+  ImplicitLinearSolver solver_;
+  ImplicitNewton newton_;
   double total_start_ = 0.0;
   bool fresh_ = true;                                      // no increment of this step has been made in this run
   const bool taken_up_ = analysis_.current.increment > 0;  // from a checkpoint inside the step
@@ -100,7 +100,7 @@ void StaticStep::find_start() {
   drive_.fading.assign(system_.map().slots(), 0.0);
   const double left = 1.0 - state.step_time / step_.duration();
   for (std::int32_t slot = 0; slot < system_.map().slots(); ++slot)
-    if (system_.map().role(slot) == StaticDofMap::Role::free) drive_.fading[slot] = system_.residual()[slot] / left;
+    if (system_.map().role(slot) == ImplicitDofMap::Role::free) drive_.fading[slot] = system_.residual()[slot] / left;
   residual_ = system_.residual();
   find_applied_forces({.step_time = state.step_time, .total_time = state.total_time}, applied_);
   system_.begin_increment();
@@ -225,7 +225,7 @@ NewtonResult StaticStep::solve_linearly(const IncrementGoal& goal) {
   analysis_.current.element_history = base_history_;
   std::vector<double> motion(map.slots(), 0.0);
   for (const auto& prescribed : drive_.motions) {
-    if (map.role(prescribed.slot) != StaticDofMap::Role::prescribed) continue;
+    if (map.role(prescribed.slot) != ImplicitDofMap::Role::prescribed) continue;
     const auto law = motion_law(analysis_.model, step_, *prescribed.condition, goal.step_time, goal.total_time);
     motion[prescribed.slot] = law.persistence * prescribed.start + law.motion - system_.displacement(prescribed.slot);
   }
@@ -283,7 +283,7 @@ void StaticStep::guess_damping(double time_increment) {
 void StaticStep::choose_damping(std::span<const double> motion, double time_increment) {
   std::array<double, 2> sums{};  // work, and sum of mass * motion^2
   for (const auto slot : system_.map().owned_slots()) {
-    if (system_.map().role(slot) == StaticDofMap::Role::absent) continue;
+    if (system_.map().role(slot) == ImplicitDofMap::Role::absent) continue;
     sums[0] += 0.5 * std::abs(applied_[slot] * motion[slot]);
     sums[1] += system_.stabilizing_mass(slot) * motion[slot] * motion[slot];
   }
@@ -308,13 +308,13 @@ void StaticStep::find_applied_forces(const IncrementGoal& goal, std::vector<doub
   const auto& map = system_.map();
   applied = system_.external();
   for (std::int32_t slot = 0; slot < map.slots(); ++slot) {
-    if (map.role(slot) == StaticDofMap::Role::absent) continue;
+    if (map.role(slot) == ImplicitDofMap::Role::absent) continue;
     const auto first = slot - slot % 3;
     const auto& axes = map.directions(map.node_of(slot));
     const auto& load = system_.external();
     applied[slot] =
         axes(slot % 3, 0) * load[first] + axes(slot % 3, 1) * load[first + 1] + axes(slot % 3, 2) * load[first + 2];
-    if (map.role(slot) == StaticDofMap::Role::prescribed) applied[slot] += residual_[slot];
+    if (map.role(slot) == ImplicitDofMap::Role::prescribed) applied[slot] += residual_[slot];
     applied[slot] += (1.0 - goal.step_time / step_.duration()) * drive_.fading[slot];
   }
 }
@@ -329,7 +329,7 @@ void StaticStep::add_work(const IncrementGoal& goal) {
   for (std::int32_t slot = 0; slot < map.slots(); ++slot) {
     const auto node = map.node_of(slot);
     const auto& axes = map.directions(node);
-    const bool absent = map.role(slot) == StaticDofMap::Role::absent;
+    const bool absent = map.role(slot) == ImplicitDofMap::Role::absent;
     double moved = 0.0;
     for (int i = 0; i < 3; ++i) {
       double component = state.position[4 * node + i] - start.position[4 * node + i];
@@ -354,7 +354,7 @@ void StaticStep::store_reactions() {
   std::ranges::fill(analysis_.body_angular_acceleration, Point{});
   std::ranges::fill(analysis_.body_reaction, std::array<double, 6>{});
   for (std::int32_t slot = 0; slot < map.slots(); ++slot) {
-    if (map.role(slot) != StaticDofMap::Role::prescribed) continue;
+    if (map.role(slot) != ImplicitDofMap::Role::prescribed) continue;
     const auto node = map.node_of(slot);
     const auto body = analysis_.reference_of(node);
     for (int i = 0; i < 3; ++i) {

@@ -40,7 +40,7 @@ void Writer::procedure(const Step& step) {
   line("*BULK VISCOSITY\n{}, {}", p.linear_bulk_viscosity, p.quadratic_bulk_viscosity);
 }
 
-void Writer::controls(const Step& step, const StaticControls& old) {
+void Writer::controls(const Step& step, const ImplicitControls& old) {
   const auto& now = step.controls;
   if (now.residual_tolerance != old.residual_tolerance || now.correction_tolerance != old.correction_tolerance) {
     line("*CONTROLS, PARAMETERS=FIELD\n{}, {}", now.residual_tolerance, now.correction_tolerance);
@@ -224,7 +224,7 @@ void Writer::step(std::size_t row) {
   line("*STEP, NAME={}, NLGEOM={}, INC={}", quoted(now.name), is_nonlinear(now) ? "YES" : "NO",
        now.static_procedure.maximum_increments);
   procedure(now);
-  controls(now, row == 0 ? StaticControls{} : before(model_, row)->controls);
+  controls(now, row == 0 ? ImplicitControls{} : before(model_, row)->controls);
   contact_changes(row);
   attachments(now);
   boundary(row);

@@ -50,7 +50,7 @@ class Writer {
 
   void step(std::size_t row);
   void procedure(const Step& step);
-  void controls(const Step& step, const StaticControls& before);
+  void controls(const Step& step, const ImplicitControls& before);
   void contact_changes(std::size_t row);
   void boundary(std::size_t row);
   const NodeSet* set_of(Conditions first, Conditions end) const;

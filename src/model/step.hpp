@@ -110,7 +110,7 @@ struct ExplicitProcedure {
 };
 
 /// Convergence controls of *CONTROLS (Abaqus's meanings and defaults).
-struct StaticControls {
+struct ImplicitControls {
   double residual_tolerance = 5e-3;    // largest residual / average force
   double correction_tolerance = 1e-2;  // largest correction / largest increment of displacement
   std::int32_t maximum_iterations = 16;
@@ -122,7 +122,7 @@ struct Step {
   std::string name;
   StaticProcedure static_procedure;
   ExplicitProcedure explicit_procedure;
-  StaticControls controls;
+  ImplicitControls controls;
 
   std::vector<BoundaryCondition> boundary;
   std::vector<ConcentratedLoad> concentrated_loads;

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "elements/bulk_viscosity.hpp"
-#include "elements/full_solid_stability.hpp"
-#include "elements/reduced_brick_kernel.hpp"
-#include "elements/reduced_brick_stability.hpp"
+#include "elements/solids/full_solid_stability.hpp"
+#include "elements/solids/reduced_brick_kernel.hpp"
+#include "elements/solids/reduced_brick_stability.hpp"
 #include "materials/isotropic_elastic.hpp"
 #include "materials/mooney_rivlin.hpp"
 #include "materials/neo_hooke.hpp"

@@ -1,4 +1,4 @@
-#include "elements/lamination.hpp"
+#include "sections/lamination.hpp"
 
 #include <gtest/gtest.h>
 

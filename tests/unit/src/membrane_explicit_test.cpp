@@ -5,8 +5,8 @@
 #include <cstring>
 
 #include "elements/aligned_vector.hpp"
-#include "elements/membrane_kernel.hpp"
-#include "elements/membrane_stability.hpp"
+#include "elements/membranes/membrane_kernel.hpp"
+#include "elements/membranes/membrane_stability.hpp"
 #include "membrane_fixture.hpp"
 
 namespace balocco::test {

@@ -1,4 +1,4 @@
-#include "elements/pressure_faces.hpp"
+#include "loads/pressure_faces.hpp"
 
 #include <gtest/gtest.h>
 

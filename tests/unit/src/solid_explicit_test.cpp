@@ -5,7 +5,7 @@
 #include <cstring>
 #include <numeric>
 
-#include "elements/solid_reference.hpp"
+#include "elements/solids/solid_reference.hpp"
 #include "solid_fixture.hpp"
 
 namespace balocco::testing {

@@ -1,0 +1,263 @@
+// Residual and stiffness of ImplicitSystem: what each kind of force adds.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "implicit_system.hpp"
+#include "step_driver.hpp"
+
+namespace balocco {
+
+namespace {
+
+Point cross_product(const double* a, const double* b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// The step with every load as it stood when the step began.
+Step with_initial_loads(const Step& step) {
+  Step initial = step;
+  const auto reset = [](auto& loads) {
+    for (auto& load : loads) {
+      load.magnitude = load.previous;
+      load.amplitude = -1;
+    }
+  };
+  reset(initial.concentrated_loads);
+  reset(initial.pressures);
+  reset(initial.gravity);
+  return initial;
+}
+
+}  // namespace
+
+bool ImplicitSystem::assemble(const AssemblyRequest& request) {
+  std::ranges::fill(residual_, 0.0);
+  std::ranges::fill(external_, 0.0);
+  force_sum_ = {};
+  inverted_element_ = -1;
+  stiffness_.start(request.motion);
+
+  bool sound = true;
+  add_elements(sound);
+  if (!everywhere_sound(sound)) return false;
+  add_loads(request);
+  add_pressure_stiffness(request);
+  add_contact();
+  add_stabilization(request);
+  exchange_.sum(residual_);
+  exchange_.sum(external_);
+  for (std::size_t slot = 0; slot < residual_.size(); ++slot) residual_[slot] -= external_[slot];
+  gather_at_bodies();
+  turn_into_slot_directions();
+  stiffness_.finish();
+
+  analysis_.communicator.sum(std::span<double>(force_sum_));
+  average_force_ = force_sum_[1] > 0.0 ? force_sum_[0] / force_sum_[1] : 0.0;
+  for (const auto slot : map_.owned_slots()) sound = sound && std::isfinite(residual_[slot]);
+  return everywhere_sound(sound);
+}
+
+bool ImplicitSystem::everywhere_sound(bool sound) {
+  if (!analysis_.communicator.any(!sound)) return true;
+  constexpr double none = std::numeric_limits<double>::max();
+  const double local = inverted_element_ >= 0 ? static_cast<double>(inverted_element_) : none;
+  const double id = analysis_.communicator.minimum(local);
+  trouble_ = id < none ? fmt::format("element {:.0f} is inverted", id) : "a force is not a finite number";
+  return false;
+}
+
+void ImplicitSystem::add_elements(bool& sound) {
+  for (std::size_t group = 0; group < analysis_.element_groups.size(); ++group)
+    for (std::int32_t element = 0; element < analysis_.element_groups[group]->size() && sound; ++element)
+      add_element(group, element, sound);
+}
+
+void ImplicitSystem::add_element(std::size_t index, std::int32_t element, bool& sound) {
+  const auto& group = *analysis_.element_groups[index];
+  const auto nodes = group.nodes(element);
+  const bool rigid = moves_as_one(nodes);
+  force_.resize(3 * nodes.size());
+  block_.resize(rigid ? 0 : force_.size() * force_.size());
+  old_history_.resize(group.history_size());
+  new_history_.resize(group.history_size());
+  group.gather_history(element, analysis_.current.element_history[index], old_history_);
+  if (!group.linearize(element, analysis_.current.position.data(), old_history_, new_history_, force_, block_)) {
+    inverted_element_ = analysis_.model.elements[group.table()].id[group.row(element)];
+    sound = false;
+    return;
+  }
+  group.scatter_history(element, new_history_, trial_history_[index]);
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    for (int axis = 0; axis < 3; ++axis) {
+      const double component = force_[3 * i + axis];
+      residual_[map_.slot(nodes[i], axis)] += component;
+      force_sum_[0] += std::abs(component);
+    }
+  force_sum_[1] += static_cast<double>(force_.size());
+  if (!rigid) stiffness_.add(motions_of(nodes), block_);
+}
+
+void ImplicitSystem::add_loads(const AssemblyRequest& request) {
+  const auto nodes = analysis_.domain.size();
+  nodal_.assign(4 * (nodes + 1), 0.0);  // a rounding constant of zero: plain sums
+  std::vector<Point> moments(analysis_.model.rigid_bodies.size());
+  const double* position = analysis_.current.position.data();
+  if (request.initial_loads)
+    add_external_forces(analysis_, with_initial_loads(step_), 0.0, request.total_time, position, nodal_.data(),
+                        moments);
+  else
+    add_external_forces(analysis_, step_, request.step_time, request.total_time, position, nodal_.data(), moments);
+  for (std::int32_t node = 0; node < nodes; ++node)
+    for (int axis = 0; axis < 3; ++axis) external_[map_.slot(node, axis)] += nodal_[4 * node + axis];
+  for (std::size_t body = 0; body < moments.size(); ++body)
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto slot = map_.rotation_slot(static_cast<std::int32_t>(body), axis);
+      if (map_.owned(slot)) external_[slot] += moments[body][axis];
+    }
+}
+
+void ImplicitSystem::add_pressure_stiffness(const AssemblyRequest& request) {
+  std::array<double, 12> force{};
+  std::array<double, 144> derivative{};
+  for (const auto& load : step_.pressures) {
+    const auto& faces = *analysis_.pressure_faces[load.surface];
+    const double pressure = request.initial_loads
+                                ? load.previous
+                                : load_magnitude(analysis_.model, step_, load.previous, load.magnitude, load.amplitude,
+                                                 request.step_time, request.total_time);
+    for (std::int32_t face = 0; face < faces.size(); ++face) {
+      faces.linearize(face, request.load_stiffness ? -pressure : 0.0, analysis_.current.position.data(), force,
+                      derivative);
+      stiffness_.add(motions_of(faces.nodes(face)), derivative);
+    }
+  }
+}
+
+void ImplicitSystem::add_contact() {
+  const auto closed_before = trial_contact_;
+  for (const auto pair : step_.active_contact_pairs)
+    for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) add_contact_point(pair, point);
+  std::int64_t closed = 0, changed = 0;
+  for (const auto pair : step_.active_contact_pairs)
+    for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) {
+      if (!analysis_.domain.owned[analysis_.contacts[pair].nodes()[point]]) continue;
+      const bool now = trial_contact_[pair][point].closed > 0.0, before = closed_before[pair][point].closed > 0.0;
+      closed += now ? 1 : 0;
+      changed += now != before ? 1 : 0;
+    }
+  closed_points_ = analysis_.communicator.sum(closed);
+  changed_points_ = analysis_.communicator.sum(changed);
+}
+
+void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point) {
+  const auto& contact = analysis_.contacts[pair];
+  const auto body = contact.master_body();
+  const auto& master = analysis_.current.rigid_bodies[body];
+  const double* position = analysis_.current.position.data();
+  const auto tangent =
+      contact.linearize(point, position, master, start_contact_[pair][point], trial_contact_[pair][point]);
+  const auto node = contact.nodes()[point];
+  if (!analysis_.domain.owned[node]) return;
+
+  const auto reference = analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
+  Point arm{};
+  for (int i = 0; i < 3; ++i) arm[i] = position[4 * node + i] - master.position[i];
+  const auto moment = cross_product(arm.data(), tangent.force.data());
+  // The residual is internal - external - contact; the master feels the opposite of the slave's force.
+  for (int i = 0; i < 3; ++i) {
+    residual_[map_.slot(node, i)] -= tangent.force[i];
+    residual_[map_.slot(reference, i)] += tangent.force[i];
+    residual_[map_.rotation_slot(body, i)] += moment[i];
+  }
+  block_.assign(81, 0.0);
+  for (int column = 0; column < 9; ++column) {
+    Point change{}, arm_change{};
+    for (int i = 0; i < 3; ++i) change[i] = tangent.derivative[9 * i + column];
+    if (column < 6) arm_change[column % 3] = column < 3 ? 1.0 : -1.0;
+    const auto from_force = cross_product(arm.data(), change.data());
+    const auto from_arm = cross_product(arm_change.data(), tangent.force.data());
+    for (int i = 0; i < 3; ++i) {
+      block_[9 * i + column] = -change[i];
+      block_[9 * (3 + i) + column] = change[i];
+      block_[9 * (6 + i) + column] = from_force[i] + from_arm[i];
+    }
+  }
+  stiffness_.add(std::array{map_.motion(node), map_.motion(reference), map_.spin(body)}, block_);
+}
+
+void ImplicitSystem::add_stabilization(const AssemblyRequest& request) {
+  const double viscosity = request.viscosity;
+  for (const auto slot : map_.owned_free_slots()) {
+    const double damping = viscosity * mass_[slot] + request.regularization * lever_[slot] * lever_[slot];
+    NodeMotion alone;
+    alone.count = 1;
+    alone.slots[0] = slot;
+    alone.direction[0] = {1.0, 0.0, 0.0};
+    stiffness_.add(std::span(&alone, 1), std::array{damping, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0});
+  }
+  if (viscosity == 0.0) return;
+  for (const auto slot : map_.owned_slots()) {
+    if (map_.role(slot) == ImplicitDofMap::Role::absent) continue;
+    const auto axis = slot % 3;
+    if (map_.is_rotation(slot)) {
+      const auto body = (slot - map_.rotation_slot(0, 0)) / 3;
+      residual_[slot] += viscosity * mass_[slot] *
+                         (analysis_.current.rigid_bodies[body].rotation[axis] - start_.bodies[body].rotation[axis]);
+    } else {
+      const auto component = 4 * (slot / 3) + axis;
+      residual_[slot] += viscosity * mass_[slot] * (analysis_.current.position[component] - start_.position[component]);
+    }
+  }
+}
+
+/// Forces on carried nodes act on their body, with their moments; turning the body turns the arms.
+void ImplicitSystem::gather_at_bodies() {
+  const auto& bodies = analysis_.current.rigid_bodies;
+  std::vector<double> sums(6 * bodies.size(), 0.0);
+  std::vector<std::array<double, 9>> turning(bodies.size());
+  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
+    const auto body = analysis_.carrier(node);
+    if (body < 0 || !analysis_.domain.owned[node]) continue;
+    Point arm{};
+    for (int i = 0; i < 3; ++i) arm[i] = analysis_.current.position[4 * node + i] - bodies[body].position[i];
+    const double* force = &residual_[map_.slot(node, 0)];
+    const auto moment = cross_product(arm.data(), force);
+    const double along = arm[0] * force[0] + arm[1] * force[1] + arm[2] * force[2];
+    for (int i = 0; i < 3; ++i) {
+      sums[6 * body + i] += force[i];
+      sums[6 * body + 3 + i] += moment[i];
+      // (spin x arm) x force = arm (spin . force) - spin (arm . force)
+      for (int j = 0; j < 3; ++j) turning[body][3 * i + j] += arm[i] * force[j] - (i == j ? along : 0.0);
+    }
+  }
+  analysis_.communicator.sum(std::span<double>(sums));
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    const auto reference = analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
+    for (int i = 0; i < 3; ++i) {
+      residual_[map_.slot(reference, i)] += sums[6 * body + i];
+      residual_[map_.rotation_slot(static_cast<std::int32_t>(body), i)] += sums[6 * body + 3 + i];
+    }
+    stiffness_.add(std::array{map_.spin(static_cast<std::int32_t>(body))}, turning[body]);
+  }
+}
+
+void ImplicitSystem::turn_into_slot_directions() {
+  const auto turn = [&](std::int32_t first_slot, const Matrix3<double>& axes) {
+    const auto turned =
+        axes * Vector3<double>{{residual_[first_slot], residual_[first_slot + 1], residual_[first_slot + 2]}};
+    for (int i = 0; i < 3; ++i) residual_[first_slot + i] = turned[i];
+  };
+  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
+    if (!map_.has_own_directions(node)) continue;
+    turn(map_.slot(node, 0), map_.directions(node));
+    if (const auto body = analysis_.reference_of(node); body >= 0)
+      turn(map_.rotation_slot(body, 0), map_.directions(node));
+  }
+  for (std::int32_t slot = 0; slot < map_.slots(); ++slot)
+    if (map_.role(slot) == ImplicitDofMap::Role::absent) residual_[slot] = 0.0;
+}
+
+}  // namespace balocco

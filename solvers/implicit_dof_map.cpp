@@ -1,0 +1,152 @@
+#include "implicit_dof_map.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace balocco {
+
+namespace {
+
+const Matrix3<double> identity = Matrix3<double>::identity();
+
+MPI_Datatype integer_type() {
+  return sizeof(PetscInt) == 8 ? MPI_INT64_T : MPI_INT32_T;
+}
+
+Point row(const Matrix3<double>& matrix, int i) {
+  return {matrix(i, 0), matrix(i, 1), matrix(i, 2)};
+}
+
+Point cross_product(const Point& a, const Point& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Model nodes that some element with stiffness holds, on any rank.
+std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
+  std::vector<std::int8_t> held(analysis.model.nodes.size(), 0);
+  for (const auto& group : analysis.element_groups)
+    for (std::int32_t element = 0; element < group->size(); ++element)
+      for (const auto node : group->nodes(element)) held[analysis.domain.node_row[node]] = 1;
+  MPI_Allreduce(MPI_IN_PLACE, held.data(), static_cast<int>(held.size()), MPI_INT8_T, MPI_MAX,
+                analysis.communicator.handle());
+  return held;
+}
+
+}  // namespace
+
+ImplicitDofMap::ImplicitDofMap(const Analysis& analysis, std::span<const std::int32_t> prescribed)
+    : analysis_(analysis), nodes_(analysis.domain.size()) {
+  for (std::int32_t node = 0; node < nodes_; ++node)
+    directions_.push_back(analysis.directions.find(analysis.domain.node_row[node]));
+  find_roles(prescribed);
+  number();
+}
+
+std::int32_t ImplicitDofMap::node_of(std::int32_t slot) const {
+  if (!is_rotation(slot)) return slot / 3;
+  const auto body = (slot - 3 * nodes_) / 3;
+  return analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
+}
+
+const Matrix3<double>& ImplicitDofMap::directions(std::int32_t node) const {
+  return directions_[node] != nullptr ? *directions_[node] : identity;
+}
+
+void ImplicitDofMap::find_roles(std::span<const std::int32_t> prescribed) {
+  const auto bodies = static_cast<std::int32_t>(analysis_.model.rigid_bodies.size());
+  role_.assign(3 * (nodes_ + bodies), Role::free);
+  const auto held = held_nodes(analysis_);
+  for (std::int32_t node = 0; node < nodes_; ++node) {
+    const bool moves = held[analysis_.domain.node_row[node]] != 0 || analysis_.reference_of(node) >= 0;
+    if (analysis_.carrier(node) >= 0 || !moves) std::fill_n(role_.begin() + 3 * node, 3, Role::absent);
+  }
+  for (const auto slot : prescribed)
+    if (role_[slot] == Role::free) role_[slot] = Role::prescribed;
+}
+
+void ImplicitDofMap::number() {
+  for (std::int32_t slot = 0; slot < slots(); ++slot) {
+    if (!owned(slot)) continue;
+    owned_slots_.push_back(slot);
+    if (role_[slot] == Role::free) owned_free_slots_.push_back(slot);
+  }
+  const auto handle = analysis_.communicator.handle();
+  const std::array<PetscInt, 2> counts{static_cast<PetscInt>(owned_slots_.size()),
+                                       static_cast<PetscInt>(owned_free_slots_.size())};
+  std::array<PetscInt, 2> first{}, total{};
+  MPI_Exscan(counts.data(), first.data(), 2, integer_type(), MPI_SUM, handle);
+  MPI_Allreduce(counts.data(), total.data(), 2, integer_type(), MPI_SUM, handle);
+  if (analysis_.communicator.is_root()) first = {};
+  first_equation_ = first[1];
+  equations_ = total[1];
+
+  // Copies learn the owners' numbers through tables over the whole model: slot number + 1 and equation number + 1, 0:
+  // not mine.
+  const auto rows = analysis_.model.nodes.size();
+  const auto table_index = [&](std::int32_t slot) -> std::size_t {
+    return is_rotation(slot) ? 3 * rows + (slot - 3 * nodes_) : 3 * analysis_.domain.node_row[slot / 3] + slot % 3;
+  };
+  const std::size_t table_size = 3 * (rows + analysis_.model.rigid_bodies.size());
+  std::vector<PetscInt> table(2 * table_size, 0);
+  for (const auto slot : owned_slots_) table[table_index(slot)] = ++first[0];
+  for (const auto slot : owned_free_slots_) table[table_size + table_index(slot)] = ++first[1];
+  MPI_Allreduce(MPI_IN_PLACE, table.data(), static_cast<int>(table.size()), integer_type(), MPI_MAX, handle);
+  for (std::int32_t slot = 0; slot < slots(); ++slot) {
+    global_slot_.push_back(table[table_index(slot)] - 1);
+    equation_.push_back(table[table_size + table_index(slot)] - 1);
+  }
+}
+
+NodeMotion ImplicitDofMap::motion(std::int32_t node) const {
+  NodeMotion result;
+  const auto body = analysis_.carrier(node);
+  const auto leader = body < 0 ? node : analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
+  const auto& axes = directions(leader);
+  for (int k = 0; k < 3; ++k) {
+    result.slots[k] = slot(leader, k);
+    result.direction[k] = row(axes, k);
+  }
+  result.count = 3;
+  if (body < 0) return result;
+  Point arm{};
+  for (int i = 0; i < 3; ++i)
+    arm[i] = analysis_.current.position[4 * node + i] - analysis_.current.rigid_bodies[body].position[i];
+  for (int k = 0; k < 3; ++k) {
+    result.slots[3 + k] = rotation_slot(body, k);
+    result.direction[3 + k] = cross_product(row(axes, k), arm);
+  }
+  result.count = 6;
+  return result;
+}
+
+NodeMotion ImplicitDofMap::spin(std::int32_t body) const {
+  NodeMotion result;
+  const auto& axes = directions(analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node]);
+  result.count = 3;
+  for (int k = 0; k < 3; ++k) {
+    result.slots[k] = rotation_slot(body, k);
+    result.direction[k] = row(axes, k);
+  }
+  return result;
+}
+
+std::string ImplicitDofMap::describe(std::int32_t slot) const {
+  const auto id = analysis_.model.nodes.id[analysis_.domain.node_row[node_of(slot)]];
+  return fmt::format("node {}, dof {}", id, is_rotation(slot) ? (slot - 3 * nodes_) % 3 + 4 : slot % 3 + 1);
+}
+
+std::string ImplicitDofMap::describe_equation(PetscInt equation) const {
+  const auto local = equation - first_equation_;
+  const bool mine = local >= 0 && local < static_cast<PetscInt>(owned_free_slots_.size());
+  std::array<std::int64_t, 2> found{-1, -1};
+  if (mine) {
+    const auto slot = owned_free_slots_[local];
+    found = {analysis_.model.nodes.id[analysis_.domain.node_row[node_of(slot)]],
+             is_rotation(slot) ? (slot - 3 * nodes_) % 3 + 4 : slot % 3 + 1};
+  }
+  MPI_Allreduce(MPI_IN_PLACE, found.data(), 2, MPI_INT64_T, MPI_MAX, analysis_.communicator.handle());
+  return fmt::format("node {}, dof {}", found[0], found[1]);
+}
+
+}  // namespace balocco

@@ -1,0 +1,79 @@
+// Which degrees of freedom the static solver solves for, and how nodes move with them.
+//
+// A slot is one displacement of a local node (3 * node + axis) or one rotation of a rigid body (3 * nodes + 3 * body +
+// axis), both counted in the node's *TRANSFORM directions. A slot is free (it has an equation), prescribed, or absent:
+// nodes carried by rigid bodies move with the six slots of the reference node, and nodes that nothing holds or pulls do
+// not move at all.
+#pragma once
+
+#include <petscsys.h>
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "analysis.hpp"
+
+namespace balocco {
+
+/// dx = sum over k < count of coefficient[3 * k ..] * dq[slots[k]]: motion of a node by at most six slots.
+struct NodeMotion {
+  int count = 0;
+  std::array<std::int32_t, 6> slots{};
+  std::array<Point, 6> direction{};
+};
+
+class ImplicitDofMap {
+ public:
+  enum class Role : std::int8_t { free, prescribed, absent };
+
+  /// `prescribed`: the slots whose motion the step prescribes, alike on every copy of a node. Collective.
+  ImplicitDofMap(const Analysis& analysis, std::span<const std::int32_t> prescribed);
+
+  std::int32_t slots() const { return static_cast<std::int32_t>(role_.size()); }
+  std::int32_t slot(std::int32_t node, int axis) const { return 3 * node + axis; }
+  std::int32_t rotation_slot(std::int32_t body, int axis) const { return 3 * nodes_ + 3 * body + axis; }
+  /// Node whose displacement or whose body's rotation a slot is.
+  std::int32_t node_of(std::int32_t slot) const;
+  bool is_rotation(std::int32_t slot) const { return slot >= 3 * nodes_; }
+
+  Role role(std::int32_t slot) const { return role_[slot]; }
+  bool owned(std::int32_t slot) const { return analysis_.domain.owned[node_of(slot)]; }
+  /// Number of the slot over all ranks, contiguous for each rank in the order of owned_slots().
+  PetscInt global_slot(std::int32_t slot) const { return global_slot_[slot]; }
+  /// Number of the slot's equation over all ranks, contiguous for each rank in the order of owned_free_slots();
+  /// negative: none.
+  PetscInt equation(std::int32_t slot) const { return equation_[slot]; }
+  const std::vector<std::int32_t>& owned_slots() const { return owned_slots_; }
+  const std::vector<std::int32_t>& owned_free_slots() const { return owned_free_slots_; }
+  PetscInt equations() const { return equations_; }
+  PetscInt first_equation() const { return first_equation_; }
+
+  /// Directions of a node's slots (rows), identity where it has no *TRANSFORM.
+  const Matrix3<double>& directions(std::int32_t node) const;
+  bool has_own_directions(std::int32_t node) const { return directions_[node] != nullptr; }
+
+  NodeMotion motion(std::int32_t node) const;
+  NodeMotion spin(std::int32_t body) const;
+
+  /// "node 12, dof 3" of a slot, in the deck's numbers.
+  std::string describe(std::int32_t slot) const;
+  /// The same for an equation that any rank owns. Collective.
+  std::string describe_equation(PetscInt equation) const;
+
+ private:
+  void find_roles(std::span<const std::int32_t> prescribed);
+  void number();
+
+  const Analysis& analysis_;
+  std::int32_t nodes_ = 0;
+  std::vector<Role> role_;
+  std::vector<PetscInt> global_slot_, equation_;
+  std::vector<std::int32_t> owned_slots_, owned_free_slots_;
+  std::vector<const Matrix3<double>*> directions_;
+  PetscInt equations_ = 0, first_equation_ = 0;
+};
+
+}  // namespace balocco

@@ -1,0 +1,45 @@
+// Solves the linear systems of Newton's method through PETSc: MUMPS unless the command line says otherwise.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "implicit_dof_map.hpp"
+#include "implicit_petsc.hpp"
+
+namespace balocco {
+
+class ImplicitLinearSolver {
+ public:
+  /// `matrix` keeps its pattern, so that the symbolic factorisation is made once. Collective.
+  ImplicitLinearSolver(Mat matrix, const Analysis& analysis, const ImplicitDofMap& map);
+
+  /// Factorises the matrix as it stands (once per factorise) and solves for the values of the equations this rank owns.
+  /// @return false if the factorisation failed, the iteration did not converge or the solution is not finite.
+  /// Collective.
+  bool solve(std::span<const double> right_hand_side, std::span<double> solution);
+
+  /// What makes the matrix singular: "node N, dof D" of the largest component of a motion that meets no resistance, or
+  /// empty where every motion meets some. Costs one back substitution after solve(). Collective.
+  std::string mechanism();
+
+  /// Mean magnitude of the diagonal entries. Collective.
+  double average_diagonal();
+
+  double seconds() const { return seconds_; }
+
+ private:
+  void set_defaults();
+  void set_near_null_space(const Analysis& analysis);
+  bool solve_vectors(Mat matrix, Vec right_hand_side, Vec solution);
+  std::string unresisted_equation();
+  std::string largest_component(Vec vector);
+
+  const ImplicitDofMap& map_;
+  Mat matrix_;
+  PetscSolver solver_;
+  PetscVector right_hand_side_, solution_;
+  double seconds_ = 0.0;
+};
+
+}  // namespace balocco

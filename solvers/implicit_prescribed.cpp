@@ -1,0 +1,98 @@
+#include "implicit_prescribed.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "model/diagnostics.hpp"
+#include "step_driver.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// Abscissae and weights of Gauss's rule with four points on (0, 1): exact for polynomials of degree 7.
+constexpr std::array<std::array<double, 2>, 4> gauss_points{{{0.06943184420297371, 0.17392742256872693},
+                                                             {0.33000947820757187, 0.32607257743127307},
+                                                             {0.66999052179242813, 0.32607257743127307},
+                                                             {0.93056815579702629, 0.17392742256872693}}};
+
+/// Times between which the amplitude is one polynomial (tabular, smooth step) or nearly so (periodic).
+std::vector<double> smooth_pieces(const Amplitude& amplitude, double offset, double step_time) {
+  std::vector<double> times{0.0, step_time};
+  for (const auto& point : amplitude.points) times.push_back(point[0] - offset);
+  if (amplitude.kind == Amplitude::Kind::periodic) {
+    times.push_back(amplitude.start - offset);
+    constexpr int pieces = 256;
+    for (int i = 1; i < pieces; ++i) times.push_back(step_time * i / pieces);
+  }
+  std::erase_if(times, [&](double t) { return t < 0.0 || t > step_time; });
+  std::ranges::sort(times);
+  return times;
+}
+
+/// Integral of amplitude(s) * (t - s)^order over 0 < s < t, for order 0 (velocity) or 1 (acceleration).
+double integral(const Model& model, std::int32_t amplitude, double step_time, double total_time, int order) {
+  if (amplitude < 0) return order == 0 ? step_time : 0.5 * step_time * step_time;
+  const auto& curve = model.amplitudes[amplitude];
+  const double offset = curve.total_time ? total_time - step_time : 0.0;
+  const auto times = smooth_pieces(curve, offset, step_time);
+  double sum = 0.0;
+  for (std::size_t i = 1; i < times.size(); ++i)
+    for (const auto& [abscissa, weight] : gauss_points) {
+      const double length = times[i] - times[i - 1], s = times[i - 1] + abscissa * length;
+      sum += weight * length * curve.value(s + offset) * (order == 0 ? 1.0 : step_time - s);
+    }
+  return sum;
+}
+
+}  // namespace
+
+MotionLaw motion_law(const Model& model, const Step& step, const BoundaryCondition& condition, double step_time,
+                     double total_time) {
+  using Kind = BoundaryCondition::Kind;
+  if (condition.fixed) return {};
+  if (condition.kind != Kind::displacement)
+    return {1.0, condition.magnitude * integral(model, condition.amplitude, step_time, total_time,
+                                                condition.kind == Kind::velocity ? 0 : 1)};
+  // A curve over total time goes on where the earlier step left it; any other earlier motion has arrived.
+  const bool goes_on = condition.amplitude >= 0 && model.amplitudes[condition.amplitude].total_time;
+  if (condition.propagated && !goes_on) return {};
+  const double factor = amplitude_factor(model, step, condition.amplitude, step_time, total_time);
+  return {condition.amplitude >= 0 ? 0.0 : 1.0 - factor, condition.magnitude * factor};
+}
+
+std::vector<PrescribedMotion> prescribed_motions(const Analysis& analysis, const Step& step) {
+  std::map<std::int32_t, const BoundaryCondition*> conditions;  // by slot
+  std::map<std::int32_t, std::int32_t> carrier;                 // by model row, the same on every rank
+  for (std::size_t body = 0; body < analysis.current.rigid_bodies.size(); ++body)
+    for (const auto& node : analysis.current.rigid_bodies[body].nodes)
+      carrier[node.node] = static_cast<std::int32_t>(body);
+  const auto nodes = analysis.domain.size();
+  std::vector<std::string> errors;
+  for (const auto& condition : step.boundary) {
+    if (const auto entry = carrier.find(condition.node); entry != carrier.end()) {
+      if (!condition.propagated)
+        errors.push_back(
+            fmt::format("{}: error: *BOUNDARY: node {} is carried by rigid body {}; prescribe the motion of its "
+                        "reference node instead, or release the node",
+                        analysis.model.where({condition.file, condition.line}), analysis.model.nodes.id[condition.node],
+                        analysis.model.rigid_bodies[entry->second].name));
+      continue;
+    }
+    const auto node = analysis.domain.local_node[condition.node];
+    if (node < 0) continue;
+    const auto body = analysis.reference_of(node);
+    if (condition.dof < 3)
+      conditions[3 * node + condition.dof] = &condition;
+    else if (body >= 0)
+      conditions[3 * nodes + 3 * body + condition.dof - 3] = &condition;
+  }
+  if (!errors.empty()) throw InputError(std::move(errors));
+  std::vector<PrescribedMotion> motions;
+  for (const auto& [slot, condition] : conditions) motions.push_back({slot, condition, 0.0});
+  return motions;
+}
+
+}  // namespace balocco

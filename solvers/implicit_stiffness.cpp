@@ -1,0 +1,83 @@
+#include "implicit_stiffness.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace balocco {
+
+void ImplicitStiffness::add(std::span<const NodeMotion> motions, std::span<const double> block) {
+  slots_.clear();
+  for (const auto& motion : motions)
+    slots_.insert(slots_.end(), motion.slots.begin(), motion.slots.begin() + motion.count);
+  if (recording_) return record(slots_);
+  reduce(motions, block);
+  const auto size = slots_.size();
+  for (std::size_t i = 0; i < size; ++i) {
+    const double* row = &reduced_[i * size];
+    if (map_.equation(slots_[i]) >= 0)
+      for (std::size_t j = 0; j < size; ++j)
+        if (map_.equation(slots_[j]) >= 0) values_[next_++] = row[j];
+    if (has_motion_)
+      for (std::size_t j = 0; j < size; ++j) product_[slots_[i]] += row[j] * motion_[slots_[j]];
+  }
+}
+
+void ImplicitStiffness::record(std::span<const std::int32_t> slots) {
+  for (const auto i : slots)
+    for (const auto j : slots)
+      if (map_.equation(i) >= 0 && map_.equation(j) >= 0) {
+        rows_.push_back(map_.equation(i));
+        columns_.push_back(map_.equation(j));
+      }
+}
+
+/// transpose(A) * block * A, A being the directions in which the slots move the nodes.
+void ImplicitStiffness::reduce(std::span<const NodeMotion> motions, std::span<const double> block) {
+  const auto size = slots_.size(), width = 3 * motions.size();
+  reduced_.resize(size * size);
+  std::size_t first_row = 0;
+  for (std::size_t a = 0; a < motions.size(); first_row += motions[a++].count) {
+    std::size_t first_column = 0;
+    for (std::size_t b = 0; b < motions.size(); first_column += motions[b++].count) {
+      for (int l = 0; l < motions[b].count; ++l) {
+        const auto& direction = motions[b].direction[l];
+        Point image;
+        for (int i = 0; i < 3; ++i) {
+          const double* entry = &block[(3 * a + i) * width + 3 * b];
+          image[i] = entry[0] * direction[0] + entry[1] * direction[1] + entry[2] * direction[2];
+        }
+        for (int k = 0; k < motions[a].count; ++k) {
+          const auto& row = motions[a].direction[k];
+          reduced_[(first_row + k) * size + first_column + l] =
+              row[0] * image[0] + row[1] * image[1] + row[2] * image[2];
+        }
+      }
+    }
+  }
+}
+
+void ImplicitStiffness::finish_pattern() {
+  const auto local = static_cast<PetscInt>(map_.owned_free_slots().size());
+  petsc(MatCreate(communicator_.handle(), matrix_.address()));
+  petsc(MatSetSizes(matrix_, local, local, PETSC_DETERMINE, PETSC_DETERMINE));
+  petsc(MatSetType(matrix_, MATAIJ));
+  values_.resize(rows_.size());
+  petsc(MatSetPreallocationCOO(matrix_, static_cast<PetscCount>(rows_.size()), rows_.data(), columns_.data()));
+  std::exchange(rows_, {});
+  std::exchange(columns_, {});
+  product_.resize(map_.slots());
+  recording_ = false;
+}
+
+void ImplicitStiffness::start(std::span<const double> motion) {
+  motion_.assign(motion.begin(), motion.end());
+  has_motion_ = std::ranges::any_of(motion_, [](double q) { return q != 0.0; });
+  std::ranges::fill(product_, 0.0);
+  next_ = 0;
+}
+
+void ImplicitStiffness::finish() {
+  petsc(MatSetValuesCOO(matrix_, values_.data(), INSERT_VALUES));
+}
+
+}  // namespace balocco

@@ -1,0 +1,192 @@
+#include "implicit_system.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "constraints/rigid_body.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// Padded lanes repeat the last element: their history follows its.
+void copy_to_padded_lanes(const ElementGroup& group, std::vector<double>& history) {
+  for (int component = 0; component < group.history_size(); ++component) {
+    double* values = &history[static_cast<std::size_t>(component) * group.padded_size()];
+    std::fill(values + group.size(), values + group.padded_size(), values[group.size() - 1]);
+  }
+}
+
+}  // namespace
+
+ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<const std::int32_t> prescribed)
+    : analysis_(analysis),
+      step_(step),
+      map_(analysis, prescribed),
+      exchange_(map_, analysis.communicator),
+      stiffness_(map_, analysis.communicator),
+      residual_(map_.slots()),
+      external_(map_.slots()) {
+  find_levers();
+  find_stabilizing_masses();
+  begin_increment();
+  record_pattern();
+}
+
+void ImplicitSystem::find_levers() {
+  Point low = analysis_.model.nodes.coordinates.front(), high = low;
+  for (const auto& point : analysis_.model.nodes.coordinates)
+    for (int i = 0; i < 3; ++i) {
+      low[i] = std::min(low[i], point[i]);
+      high[i] = std::max(high[i], point[i]);
+    }
+  model_size_ = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  if (model_size_ == 0.0) model_size_ = 1.0;
+  lever_.assign(map_.slots(), 1.0);
+  for (std::size_t body = 0; body < analysis_.current.rigid_bodies.size(); ++body) {
+    double arm = 0.0;
+    for (const auto& node : analysis_.current.rigid_bodies[body].nodes)
+      arm = std::max(arm, std::hypot(node.offset[0], node.offset[1], node.offset[2]));
+    std::fill_n(lever_.begin() + map_.rotation_slot(static_cast<std::int32_t>(body), 0), 3,
+                arm > 0.0 ? arm : model_size_);
+  }
+}
+
+void ImplicitSystem::find_stabilizing_masses() {
+  mass_.assign(map_.slots(), 0.0);
+  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node)
+    std::fill_n(mass_.begin() + 3 * node, 3, analysis_.nodal_mass[node]);
+  std::array<double, 2> sum{};
+  for (const auto slot : map_.owned_slots())
+    if (mass_[slot] > 0.0) {
+      sum[0] += mass_[slot];
+      sum[1] += 1.0;
+    }
+  analysis_.communicator.sum(std::span<double>(sum));
+  const double average = sum[1] > 0.0 ? sum[0] / sum[1] : 1.0;
+  for (std::int32_t slot = 0; slot < map_.slots(); ++slot)
+    if (mass_[slot] == 0.0) mass_[slot] = average * lever_[slot] * lever_[slot];
+}
+
+std::span<const NodeMotion> ImplicitSystem::motions_of(std::span<const std::int32_t> nodes) {
+  motions_.clear();
+  for (const auto node : nodes) motions_.push_back(map_.motion(node));
+  return motions_;
+}
+
+bool ImplicitSystem::moves_as_one(std::span<const std::int32_t> nodes) const {
+  const auto body = analysis_.carrier(nodes[0]);
+  return body >= 0 && std::ranges::all_of(nodes, [&](std::int32_t node) { return analysis_.carrier(node) == body; });
+}
+
+/// Visits every block of the assembly once, in its order: see the functions that add values.
+void ImplicitSystem::record_pattern() {
+  for (const auto& group : analysis_.element_groups)
+    for (std::int32_t element = 0; element < group->size(); ++element)
+      if (!moves_as_one(group->nodes(element))) stiffness_.add(motions_of(group->nodes(element)), {});
+  for (const auto& load : step_.pressures)
+    for (std::int32_t face = 0; face < analysis_.pressure_faces[load.surface]->size(); ++face)
+      stiffness_.add(motions_of(analysis_.pressure_faces[load.surface]->nodes(face)), {});
+  for (const auto pair : step_.active_contact_pairs) {
+    const auto& contact = analysis_.contacts[pair];
+    const auto master = analysis_.domain.local_node[analysis_.model.rigid_bodies[contact.master_body()].reference_node];
+    for (const auto node : contact.nodes())
+      if (analysis_.domain.owned[node])
+        stiffness_.add(std::array{map_.motion(node), map_.motion(master), map_.spin(contact.master_body())}, {});
+  }
+  for (const auto slot : map_.owned_free_slots()) {
+    NodeMotion alone;
+    alone.count = 1;
+    alone.slots[0] = slot;
+    stiffness_.add(std::span(&alone, 1), {});
+  }
+  for (std::size_t body = 0; body < analysis_.model.rigid_bodies.size(); ++body)
+    stiffness_.add(std::array{map_.spin(static_cast<std::int32_t>(body))}, {});
+  stiffness_.finish_pattern();
+}
+
+void ImplicitSystem::move(std::span<const double> increment, double factor) {
+  auto& state = analysis_.current;
+  const auto global = [&](std::int32_t first_slot, std::int32_t node) -> Point {
+    const auto& axes = map_.directions(node);
+    Point vector{};
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) vector[i] += axes(k, i) * (factor * increment[first_slot + k]);
+    return vector;
+  };
+  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
+    if (analysis_.carrier(node) >= 0) continue;
+    const auto displacement = global(map_.slot(node, 0), node);
+    for (int i = 0; i < 3; ++i) state.position[4 * node + i] += displacement[i];
+    const auto body = analysis_.reference_of(node);
+    if (body < 0) continue;
+    std::copy_n(&state.position[4 * node], 3, state.rigid_bodies[body].position.begin());
+    rotate(state.rigid_bodies[body], global(map_.rotation_slot(body, 0), node));
+  }
+  analysis_.place_rigid_nodes(state.position);
+}
+
+double ImplicitSystem::displacement(std::int32_t slot) const {
+  const auto node = map_.node_of(slot);
+  Point vector{};
+  if (map_.is_rotation(slot)) {
+    vector = analysis_.current.rigid_bodies[analysis_.reference_of(node)].rotation;
+  } else {
+    const auto& reference = analysis_.model.nodes.coordinates[analysis_.domain.node_row[node]];
+    for (int i = 0; i < 3; ++i) vector[i] = analysis_.current.position[4 * node + i] - reference[i];
+  }
+  const auto axis = slot % 3;
+  const auto& axes = map_.directions(node);
+  return axes(axis, 0) * vector[0] + axes(axis, 1) * vector[1] + axes(axis, 2) * vector[2];
+}
+
+void ImplicitSystem::restore(const Configuration& configuration) {
+  analysis_.current.position = configuration.position;
+  analysis_.current.rigid_bodies = configuration.bodies;
+}
+
+void ImplicitSystem::begin_increment() {
+  start_ = configuration();
+  trial_history_ = analysis_.current.element_history;
+  start_contact_ = analysis_.current.contact;
+  trial_contact_ = analysis_.current.contact;
+}
+
+void ImplicitSystem::commit() {
+  analysis_.current.element_history = trial_history_;
+  analysis_.current.contact = trial_contact_;
+  for (std::size_t group = 0; group < analysis_.element_groups.size(); ++group)
+    copy_to_padded_lanes(*analysis_.element_groups[group], analysis_.current.element_history[group]);
+}
+
+double ImplicitSystem::greatest_penetration() const {
+  double penetration = 0.0;
+  for (const auto pair : step_.active_contact_pairs) {
+    const auto& contact = analysis_.contacts[pair];
+    auto points = start_contact_[pair];  // only looked at
+    penetration = std::max(penetration, contact.augment(analysis_.current.position.data(),
+                                                        analysis_.current.rigid_bodies[contact.master_body()], points));
+  }
+  return analysis_.communicator.maximum(penetration);
+}
+
+void ImplicitSystem::augment_contact() {
+  for (const auto pair : step_.active_contact_pairs)
+    analysis_.contacts[pair].augment(analysis_.current.position.data(),
+                                     analysis_.current.rigid_bodies[analysis_.contacts[pair].master_body()],
+                                     start_contact_[pair]);
+}
+
+double ImplicitSystem::contact_length() const {
+  std::array<double, 2> sum{};
+  for (const auto pair : step_.active_contact_pairs)
+    for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) {
+      if (!analysis_.domain.owned[analysis_.contacts[pair].nodes()[point]]) continue;
+      sum[0] += std::sqrt(analysis_.contacts[pair].area(point));
+      sum[1] += 1.0;
+    }
+  analysis_.communicator.sum(std::span<double>(sum));
+  return sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
+}
+
+}  // namespace balocco

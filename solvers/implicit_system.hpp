@@ -1,0 +1,119 @@
+// The discrete equations of a static step: residual forces and their exact stiffness at the positions of the state,
+// reduced to the free slots (rigid bodies eliminated with finite rotations).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "implicit_dof_map.hpp"
+#include "implicit_slot_exchange.hpp"
+#include "implicit_stiffness.hpp"
+
+namespace balocco {
+
+struct AssemblyRequest {
+  double step_time = 0.0, total_time = 0.0;
+  bool initial_loads = false;  // loads as they stood before the step began
+  bool load_stiffness = true;  // follower pressure; a linear step leaves it out
+  std::span<const double>
+      motion;                   // of each slot: stiffness().product() will hold this rank's part of stiffness * motion
+  double viscosity = 0.0;       // viscous force / (mass * displacement since the increment began)
+  double regularization = 0.0;  // stiffness added to every free slot (times its lever squared), without a force
+};
+
+/// Where the increment began: what a failed trial returns to.
+struct Configuration {
+  std::vector<double> position;
+  std::vector<RigidBodyState> bodies;
+};
+
+class ImplicitSystem {
+ public:
+  /// Collective.
+  ImplicitSystem(Analysis& analysis, const Step& step, std::span<const std::int32_t> prescribed);
+
+  /// Residual, loads and stiffness at the current positions, with the histories that would follow. @return false, on
+  /// every rank, if an element is inverted or a force is not finite: trouble() says which. Collective.
+  bool assemble(const AssemblyRequest& request);
+  const std::string& trouble() const { return trouble_; }
+
+  /// Internal - external - contact forces in the slots' directions, carried nodes gathered at their reference node;
+  /// zero in absent slots. Stabilising forces are included.
+  const std::vector<double>& residual() const { return residual_; }
+  /// Loads on each node, also on carried ones, and moments on bodies, in global directions.
+  const std::vector<double>& external() const { return external_; }
+  /// Average magnitude of the nodal forces of the elements, over all ranks.
+  double average_force() const { return average_force_; }
+  /// Contact points of all ranks that are closed in the trial, and how many changed since the last assembly.
+  std::int64_t closed_points() const { return closed_points_; }
+  std::int64_t changed_points() const { return changed_points_; }
+
+  const ImplicitDofMap& map() const { return map_; }
+  ImplicitStiffness& stiffness() { return stiffness_; }
+  SlotExchange& exchange() { return exchange_; }
+
+  /// Moves nodes and bodies by `factor` times an increment of the slots.
+  void move(std::span<const double> increment, double factor);
+  /// Displacement or rotation of a slot from the reference configuration.
+  double displacement(std::int32_t slot) const;
+  Configuration configuration() const { return {analysis_.current.position, analysis_.current.rigid_bodies}; }
+  void restore(const Configuration& configuration);
+
+  /// Marks the current positions as the start of an increment, and forgets trial histories.
+  void begin_increment();
+  const Configuration& start_of_increment() const { return start_; }
+  /// Makes the trial's histories those of the state.
+  void commit();
+  /// Depth of the deepest slave node in the master. Collective.
+  double greatest_penetration() const;
+  /// Adds the present spring forces to the multipliers from which the increment's contact starts.
+  void augment_contact();
+  bool has_contact() const { return !step_.active_contact_pairs.empty(); }
+  /// Edge length of the area that a slave node stands for: the average of all ranks. Collective.
+  double contact_length() const;
+
+  /// Mass that stabilisation gives a slot: the node's, the average where it has none; rotations: times the lever
+  /// squared.
+  double stabilizing_mass(std::int32_t slot) const { return mass_[slot]; }
+  /// What turns a slot's rotation into a length: the longest arm of the body (the size of the model for bodies without
+  /// nodes); 1 for displacements.
+  double lever(std::int32_t slot) const { return lever_[slot]; }
+  double model_size() const { return model_size_; }
+
+ private:
+  void record_pattern();
+  void add_elements(bool& sound);
+  void add_element(std::size_t group, std::int32_t element, bool& sound);
+  void add_loads(const AssemblyRequest& request);
+  void add_pressure_stiffness(const AssemblyRequest& request);
+  void add_contact();
+  void add_contact_point(std::int32_t pair, std::int32_t point);
+  void add_stabilization(const AssemblyRequest& request);
+  void gather_at_bodies();
+  void turn_into_slot_directions();
+  bool everywhere_sound(bool sound);
+  void find_levers();
+  void find_stabilizing_masses();
+  std::span<const NodeMotion> motions_of(std::span<const std::int32_t> nodes);
+  bool moves_as_one(std::span<const std::int32_t> nodes) const;
+
+  Analysis& analysis_;
+  const Step& step_;
+  ImplicitDofMap map_;
+  SlotExchange exchange_;
+  ImplicitStiffness stiffness_;
+  Configuration start_;
+  std::vector<std::vector<double>> trial_history_;
+  std::vector<std::vector<ContactPoint>> start_contact_, trial_contact_;
+  std::vector<double> residual_, external_, mass_, lever_;
+  double model_size_ = 1.0;
+  double average_force_ = 0.0;
+  std::array<double, 2> force_sum_{};  // of magnitudes, and how many
+  std::int64_t closed_points_ = 0, changed_points_ = 0;
+  std::int64_t inverted_element_ = -1;
+  std::string trouble_;
+  std::vector<NodeMotion> motions_;                                        // scratch
+  std::vector<double> old_history_, new_history_, force_, block_, nodal_;  // scratch
+};
+
+}  // namespace balocco

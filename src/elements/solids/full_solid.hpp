@@ -1,0 +1,94 @@
+// C3D8 and C3D6: fully integrated solids with mean dilatation, one template over shape and quadrature. The explicit
+// kernel is in full_solid_explicit.hpp, the tangent in full_solid_static.hpp: each type compiles them apart.
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "elements/aligned_vector.hpp"
+#include "elements/element_group.hpp"
+#include "elements/solids/full_solid_kernel.hpp"
+#include "elements/record_reference.hpp"
+#include "elements/solids/solid_output.hpp"
+#include "elements/solids/solid_reference.hpp"
+
+namespace balocco {
+
+template <class Shape>
+class FullSolid final : public ElementGroup {
+ public:
+  explicit FullSolid(const GroupInput& input);
+
+  int history_size() const override { return 2; }  // Jbar after the last increment, viscous dissipation
+  void initialize_history(std::span<double> history) const override {
+    std::fill(history.begin(), history.end(), 0.0);
+    history[0] = 1.0;
+  }
+  void lumped_mass(std::int32_t element, std::span<double> mass) const override {
+    std::fill(mass.begin(), mass.end(), material_.density * reference(element)[Record::volume] / Shape::nodes);
+  }
+  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  bool linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+                 std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
+  ElementEnergies energies(std::int32_t element, const double* position,
+                           std::span<const double> history) const override;
+  int point_components(std::string_view variable) const override { return solid_output_components(variable); }
+  void point_output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+                    std::span<const double>, std::span<double> values) const override {
+    const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, position), reference(element));
+    solid_output(variable, material_, k.modified[integration_point], {}, values);
+  }
+  int integration_points() const override { return Shape::points; }
+  std::size_t bytes_per_element() const override {
+    return sizeof(double) * (Record::size + history_size()) + sizeof(std::int32_t) * (2 * Shape::nodes + 1);
+  }
+
+ private:
+  using Record = FullSolidRecord<Shape>;
+  static_assert(Shape::points * pack_size <= PointBatch<PointKind::solid>::capacity);
+  template <class T>
+  using Coefficients = std::array<Vector3<T>, Shape::modes>;
+  template <class T>
+  using Tensors = std::array<Matrix3<T>, Shape::points>;
+
+  Coefficients<Pack> gather_coefficients(std::int32_t element, const double* nodal) const;
+  Pack add_pack(std::int32_t element, const ExplicitCycle& cycle, PointBatch<PointKind::solid>& points,
+                std::span<double> history) const;
+  /// Adds beta * (initial stiffness : rate) to the stresses; returns the power.
+  Pack add_damping(std::int32_t element, const ExplicitCycle& cycle, const FullSolidKinematics<Pack, Shape>& k,
+                   Tensors<Pack>& stress) const;
+  Pack stable_increment(const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,
+                        const PointBatch<PointKind::solid>& points, const Pack& viscous_slope, bool damped,
+                        const PackReference& reference) const;
+  template <class T>
+  Coefficients<T> coefficients_of(std::int32_t element, const double* position) const;
+
+  PackReference pack_reference(std::int32_t element) const {
+    return {records_.data() + static_cast<std::size_t>(element) * Record::size};
+  }
+  LaneReference reference(std::int32_t element) const {
+    return {records_.data() + static_cast<std::size_t>(element / pack_size) * pack_size * Record::size +
+            element % pack_size};
+  }
+
+  SolidMaterial material_;
+  AlignedVector<double> records_;  // [pack][component][lane]
+};
+
+template <class Shape>
+template <class T>
+auto FullSolid<Shape>::coefficients_of(std::int32_t element, const double* position) const -> Coefficients<T> {
+  std::array<Vector3<T>, Shape::nodes> nodes;
+  for (int node = 0; node < Shape::nodes; ++node) {
+    const double* x = position + 4 * static_cast<std::ptrdiff_t>(connectivity_[element * Shape::nodes + node]);
+    for (int i = 0; i < 3; ++i) {
+      if constexpr (std::is_same_v<T, double>)
+        nodes[node][i] = x[i];
+      else
+        nodes[node][i] = T(x[i], 3 * node + i);
+    }
+  }
+  return Shape::coefficients(nodes);
+}
+
+}  // namespace balocco

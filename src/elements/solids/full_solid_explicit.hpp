@@ -1,0 +1,197 @@
+// Reference data and explicit kernel of the fully integrated solids.
+#pragma once
+
+#include <Eigen/Dense>
+#include <algorithm>
+#include <cmath>
+
+#include "elements/bulk_viscosity.hpp"
+#include "elements/element_type.hpp"
+#include "elements/solids/full_solid.hpp"
+#include "elements/solids/full_solid_stability.hpp"
+#include "elements/nodal_packs.hpp"
+#include "elements/solids/solid_damping.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+template <class Shape>
+std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
+    const std::array<Vector3<double>, Shape::nodes>& nodes) {
+  using Record = FullSolidRecord<Shape>;
+  static constexpr auto quadrature = Shape::quadrature();
+  std::array<double, Record::size> record{};
+  const auto c = Shape::coefficients(nodes);
+  Eigen::Matrix<double, Shape::nodes, Shape::nodes> laplacian =
+      Eigen::Matrix<double, Shape::nodes, Shape::nodes>::Zero();
+  Eigen::Matrix<double, 3, Shape::nodes> mean = Eigen::Matrix<double, 3, Shape::nodes>::Zero();
+  double volume = 0.0;
+  for (int q = 0; q < Shape::points; ++q) {
+    Matrix3<double> jacobian{};
+    for (int k = 0; k < Shape::modes; ++k)
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) jacobian(i, j) += c[k][i] * quadrature[q].derivative[k][j];
+    const Matrix3<double> cof = cofactor(jacobian);
+    const double det = determinant(jacobian, cof);
+    double* point = &record[Record::point(q)];
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) point[3 * i + j] = cof(j, i) / det;
+    point[9] = det * quadrature[q].weight;
+    volume += point[9];
+    Eigen::Matrix<double, 3, Shape::nodes>
+        gradient;  // B_I, one direction at a time through the transpose of the coefficients
+    for (int j = 0; j < 3; ++j) {
+      std::array<Vector3<double>, Shape::modes> conjugate{};
+      for (int k = 0; k < Shape::modes; ++k)
+        for (int n = 0; n < 3; ++n) conjugate[k][0] += quadrature[q].derivative[k][n] * point[3 * n + j];
+      const auto nodal = Shape::nodal(conjugate);
+      for (int node = 0; node < Shape::nodes; ++node) gradient(j, node) = nodal[node][0];
+    }
+    laplacian += point[9] * gradient.transpose() * gradient;
+    mean += point[9] * gradient;
+  }
+  mean /= volume;
+  record[Record::volume] = volume;
+  record[Record::laplacian_bound] =
+      Eigen::SelfAdjointEigenSolver<decltype(laplacian)>(laplacian, Eigen::EigenvaluesOnly)
+          .eigenvalues()(Shape::nodes - 1);
+  const Eigen::Matrix3d metric = mean * mean.transpose();
+  const double largest =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(metric, Eigen::EigenvaluesOnly).eigenvalues()(2);
+  record[Record::length] = 2.0 / std::sqrt(Shape::nodes * largest);
+  return record;
+}
+
+template <class Shape>
+FullSolid<Shape>::FullSolid(const GroupInput& input)
+    : ElementGroup(input),
+      material_(SolidMaterial::of_section(input.model, input.model.sections.at(input.section))),
+      records_(static_cast<std::size_t>(padded_size_) * Record::size) {
+  const Section& section = input.model.sections[input.section];
+  if (material_.law->history_size() != 0)
+    throw InputError(input.model.where(section.location) +
+                     ": error: *SOLID SECTION: C3D8 and C3D6 take elastic and hyperelastic materials only; use C3D8R");
+  std::array<Vector3<double>, Shape::nodes> nodes;
+  for (std::int32_t lane = 0; lane < padded_size_; ++lane) {
+    reference_nodes(input.model, section, input.model.elements[input.table], rows_[lane], nodes);
+    const auto record = full_solid_record<Shape>(nodes);
+    double* data =
+        records_.data() + static_cast<std::size_t>(lane / pack_size) * pack_size * Record::size + lane % pack_size;
+    for (int k = 0; k < Record::size; ++k) data[pack_size * k] = record[k];
+  }
+}
+
+template <class Shape>
+StableIncrement FullSolid<Shape>::add_forces(Portion portion, const ExplicitCycle& cycle,
+                                             std::span<double> history) const {
+  const std::int32_t first = portion == Portion::interface ? 0 : interface_padded_;
+  const std::int32_t last = portion == Portion::interface ? interface_padded_ : padded_size_;
+  StableIncrement smallest;
+  PointBatch<PointKind::solid> points;
+  points.count = Shape::points * pack_size;
+  for (std::int32_t element = first; element < last; element += pack_size) {
+    const Pack increment = add_pack(element, cycle, points, history);
+    if (std::experimental::all_of(increment >= smallest.increment)) continue;
+    for (int i = 0; i < pack_size; ++i) smallest.merge({increment[i], element + i});
+  }
+  return smallest;
+}
+
+template <class Shape>
+auto FullSolid<Shape>::gather_coefficients(std::int32_t element, const double* nodal) const -> Coefficients<Pack> {
+  const std::int32_t* nodes = connectivity_.data() + static_cast<std::size_t>(element) * Shape::nodes;
+  std::array<Vector3<Pack>, Shape::nodes> x;
+  for (int node = 0; node < Shape::nodes; ++node) x[node] = gather(nodal, nodes + node, Shape::nodes);
+  return Shape::coefficients(x);
+}
+
+template <class Shape>
+[[gnu::flatten]] Pack FullSolid<Shape>::add_pack(std::int32_t element, const ExplicitCycle& cycle,
+                                                 PointBatch<PointKind::solid>& points,
+                                                 std::span<double> history) const {
+  const PackReference reference = pack_reference(element);
+  prefetch_record(reference.data + pack_size * Record::size, Record::size);
+  const auto k = full_solid_kinematics<Shape>(gather_coefficients(element, cycle.position), reference);
+  for (int q = 0; q < Shape::points; ++q)
+    for (int i = 0; i < 9; ++i) store(k.modified[q].component[i], &points.strain[i][pack_size * q]);
+  material_.law->stress(points);
+  Tensors<Pack> stress;
+  for (int q = 0; q < Shape::points; ++q)
+    for (int i = 0; i < 9; ++i) stress[q].component[i] = load(&points.stress[i][pack_size * q]);
+
+  Pack old_jacobian(&history[element], std::experimental::element_aligned);
+  Pack dissipation(&history[padded_size_ + element], std::experimental::element_aligned);
+  const BulkViscosity viscosity(cycle.linear_bulk_viscosity, cycle.quadratic_bulk_viscosity, material_.density,
+                                material_.wave_speed);
+  const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
+  const Pack rate = volume_rate(k.mean_jacobian, old_jacobian, inverse_increment);
+  const Pack length = reference[Record::length], mean_stress = viscosity.stress(length, rate);
+  dissipation += cycle.increment * (reference[Record::volume] * (mean_stress * (k.mean_jacobian * rate)));
+  const bool damped = material_.damping_beta > 0.0 && cycle.increment > 0.0;
+  if (damped) dissipation += cycle.increment * add_damping(element, cycle, k, stress);
+
+  const auto forces = Shape::nodal(full_solid_conjugates<Shape>(k, stress, mean_stress, reference));
+  const std::int32_t* targets = scatter_.data() + static_cast<std::size_t>(element) * Shape::nodes;
+  for (int node = 0; node < Shape::nodes; ++node)
+    scatter_subtract(forces[node], targets + node, Shape::nodes, cycle.force);
+  k.mean_jacobian.copy_to(&history[element], std::experimental::element_aligned);
+  dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
+  return stable_increment(k, stress, points, viscosity.slope(length, rate), damped, reference);
+}
+
+template <class Shape>
+Pack FullSolid<Shape>::add_damping(std::int32_t element, const ExplicitCycle& cycle,
+                                   const FullSolidKinematics<Pack, Shape>& k, Tensors<Pack>& stress) const {
+  const PackReference reference = pack_reference(element);
+  const auto c_rate = gather_coefficients(element, cycle.velocity);
+  Tensors<Pack> rate;                          // s dF/dt, then dFbar/dt
+  std::array<Pack, Shape::points> dilatation;  // d(ln J)/dt
+  const Pack inverse = 1.0 / k.mean_jacobian;
+  Pack mean = 0.0;
+  for (int q = 0; q < Shape::points; ++q) {
+    rate[q] = k.scale[q] * deformation_gradient<Shape>(c_rate, q, reference);
+    dilatation[q] = inverse * double_contraction(cofactor(k.modified[q]), rate[q]);
+    mean += reference[Record::point(q) + 9] * (k.jacobian[q] * dilatation[q]);
+  }
+  mean = mean * inverse / reference[Record::volume];
+  Pack power = 0.0;
+  for (int q = 0; q < Shape::points; ++q) {
+    rate[q] = rate[q] + ((1.0 / 3.0) * (mean - dilatation[q])) * k.modified[q];
+    Pack density;
+    const Matrix3<Pack> viscous = k.modified[q] * rate_stress(material_.stiffness, k.modified[q], rate[q], density);
+    stress[q] = stress[q] + Pack(material_.damping_beta) * viscous;
+    power += material_.damping_beta * (reference[Record::point(q) + 9] * density);
+  }
+  return power;
+}
+
+template <class Shape>
+Pack FullSolid<Shape>::stable_increment(const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,
+                                        const PointBatch<PointKind::solid>& points, const Pack& viscous_slope,
+                                        bool damped, const PackReference& reference) const {
+  const Pack volume = reference[Record::volume], inverse_volume = 1.0 / volume, inverse = 1.0 / k.mean_jacobian;
+  FullSolidBound<Pack> bound;
+  for (int q = 0; q < Shape::points; ++q) {
+    const TangentBound<Pack> tangent{load(&points.volumetric_modulus[pack_size * q]),
+                                     load(&points.shear_modulus[pack_size * q])};
+    bound.add_point(k.modified[q], stress[q], tangent, k.scale[q], k.jacobian[q] * inverse,
+                    inverse_volume * reference[Record::point(q) + 9]);
+  }
+  // d(ln Jbar)/dx is the nodal force of a unit mean stress, over V Jbar.
+  const auto gradient = Shape::nodal(full_solid_conjugates<Shape>(k, Tensors<Pack>{}, Pack(1.0), reference));
+  Pack square = 0.0;
+  for (const auto& node : gradient) square += dot(node, node);
+  const Pack dilatation = square * ((inverse * inverse) * inverse_volume);  // V |d(ln Jbar)/dx|^2
+
+  const Pack stiffness = bound.volumetric() * dilatation + bound.distortion * reference[Record::laplacian_bound];
+  const Pack inverse_mass = material_.density > 0.0 ? (Shape::nodes / material_.density) * inverse_volume : Pack(0.0);
+  const Pack omega_square = inverse_mass * stiffness;
+  const Pack damping = inverse_mass * (viscous_slope * (k.mean_jacobian * dilatation)) +
+                       (damped ? material_.damping_beta : 0.0) * omega_square;
+  Pack smallest_jacobian = k.jacobian[0];
+  for (int q = 1; q < Shape::points; ++q) smallest_jacobian = -maximum(-smallest_jacobian, -k.jacobian[q]);
+  const Pack increment = neutral_increment(omega_square, damping);
+  return select(smallest_jacobian > 0.0 && increment > 0.0, increment, Pack(0.0));  // inverted or not a number: 0
+}
+
+}  // namespace balocco

@@ -1,0 +1,59 @@
+// C3D8R: the one-point brick with uniform strain and physical hourglass stiffness.
+#pragma once
+
+#include <array>
+
+#include "elements/aligned_vector.hpp"
+#include "elements/element_group.hpp"
+#include "elements/solids/reduced_brick_kernel.hpp"
+#include "elements/solids/solid_reference.hpp"
+
+namespace balocco {
+
+inline constexpr int nodes_per_brick = 8;
+
+class ReducedBrick final : public ElementGroup {
+ public:
+  explicit ReducedBrick(const GroupInput& input);
+
+  int history_size() const override { return own_history + material_.law->history_size(); }
+  void initialize_history(std::span<double> history) const override;
+  void lumped_mass(std::int32_t element, std::span<double> mass) const override;
+  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  bool linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+                 std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
+  ElementEnergies energies(std::int32_t element, const double* position,
+                           std::span<const double> history) const override;
+  int point_components(std::string_view variable) const override;
+  void point_output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+                    std::span<const double> history, std::span<double> values) const override;
+  int integration_points() const override { return 1; }
+  std::size_t bytes_per_element() const override;
+
+ private:
+  static constexpr int own_history = 2;  // Jacobian after the last increment, viscous dissipation; then the law's
+
+  template <bool enhanced, bool damped>
+  StableIncrement add_packs(std::int32_t first, std::int32_t last, const ExplicitCycle& cycle,
+                            std::span<double> history) const;
+  template <bool enhanced, bool damped>
+  Pack add_pack(std::int32_t element, const ExplicitCycle& cycle, PointBatch<PointKind::solid>& points,
+                std::span<double> history) const;
+
+  /// Force (and stiffness) of one element over any scalar: T = double or Dual<24>.
+  template <class T>
+  std::array<Vector3<T>, 8> static_forces(const HexahedronCoefficients<T>& c, const Matrix3<T>& f,
+                                          const Matrix3<T>& stress, const LaneReference& reference) const;
+  template <class T>
+  HexahedronCoefficients<T> coefficients_of(std::int32_t element, const double* position) const;
+  LaneReference reference(std::int32_t element) const {
+    return {records_.data() + static_cast<std::size_t>(element / pack_size) * pack_size * brick_record::size +
+            element % pack_size};
+  }
+
+  SolidMaterial material_;
+  bool enhanced_;
+  AlignedVector<double> records_;  // [pack][component][lane]
+};
+
+}  // namespace balocco

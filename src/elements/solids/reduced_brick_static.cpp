@@ -1,0 +1,106 @@
+// C3D8R one element at a time: force, exact tangent, energies, output.
+#include <algorithm>
+
+#include "elements/solids/reduced_brick.hpp"
+#include "elements/solids/reduced_brick_damping.hpp"
+#include "elements/solids/solid_output.hpp"
+#include "math/dual.hpp"
+
+namespace balocco {
+
+template <class T>
+HexahedronCoefficients<T> ReducedBrick::coefficients_of(std::int32_t element, const double* position) const {
+  std::array<Vector3<T>, nodes_per_brick> nodes;
+  for (int node = 0; node < nodes_per_brick; ++node) {
+    const double* x = position + 4 * static_cast<std::ptrdiff_t>(connectivity_[element * nodes_per_brick + node]);
+    for (int i = 0; i < 3; ++i) {
+      if constexpr (std::is_same_v<T, double>)
+        nodes[node][i] = x[i];
+      else
+        nodes[node][i] = T(x[i], 3 * node + i);
+    }
+  }
+  return coefficients(nodes);
+}
+
+template <class T>
+std::array<Vector3<T>, 8> ReducedBrick::static_forces(const HexahedronCoefficients<T>& c, const Matrix3<T>& f,
+                                                      const Matrix3<T>& stress, const LaneReference& reference) const {
+  const auto q = hourglass_vectors(c, f, reference);
+  const Matrix3<T> integrated = T(reference[brick_record::volume]) * stress;
+  if (!enhanced_)
+    return nodal_forces(conjugates_with_scalar(scalar_hourglass_forces(q, reference), integrated, reference));
+  const auto hourglass_stress = hourglass_stresses(hourglass_strains(c, q), reference);
+  return nodal_forces(conjugates_with_stresses(c, q, hourglass_stress, integrated, reference));
+}
+
+bool ReducedBrick::linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+                             std::span<double> new_history, std::span<double> force,
+                             std::span<double> stiffness) const {
+  using Derivative = Dual<3 * nodes_per_brick>;
+  const LaneReference record = reference(element);
+  const auto c = coefficients_of<double>(element, position);
+  const Matrix3<double> f = mean_deformation_gradient(c, record);
+  const double jacobian = determinant(f, cofactor(f));
+  if (!(jacobian > 0.0)) return false;
+
+  std::copy(old_history.begin(), old_history.end(), new_history.begin());
+  new_history[0] = jacobian;
+  Matrix3<double> stress;
+  std::array<double, 81> tangent;
+  material_.law->tangent(f.component, new_history.subspan(own_history), stress.component, tangent);
+
+  if (stiffness.empty()) {
+    const auto forces = static_forces(c, f, stress, record);
+    for (int i = 0; i < 3 * nodes_per_brick; ++i) force[i] = forces[i / 3][i % 3];
+    return true;
+  }
+  const auto c_dual = coefficients_of<Derivative>(element, position);
+  const Matrix3<Derivative> f_dual = mean_deformation_gradient(c_dual, record);
+  Matrix3<Derivative> stress_dual;
+  for (int i = 0; i < 9; ++i) {
+    stress_dual.component[i] = Derivative(stress.component[i]);
+    for (int j = 0; j < 9; ++j)
+      for (int k = 0; k < 3 * nodes_per_brick; ++k)
+        stress_dual.component[i].derivative[k] += tangent[9 * i + j] * f_dual.component[j].derivative[k];
+  }
+  const auto forces = static_forces(c_dual, f_dual, stress_dual, record);
+  for (int i = 0; i < 3 * nodes_per_brick; ++i) {
+    force[i] = forces[i / 3][i % 3].value;
+    for (int j = 0; j < 3 * nodes_per_brick; ++j)
+      stiffness[3 * nodes_per_brick * i + j] = forces[i / 3][i % 3].derivative[j];
+  }
+  return true;
+}
+
+ElementEnergies ReducedBrick::energies(std::int32_t element, const double* position,
+                                       std::span<const double> history) const {
+  const LaneReference record = reference(element);
+  const auto c = coefficients_of<double>(element, position);
+  const Matrix3<double> f = mean_deformation_gradient(c, record);
+  const auto q = hourglass_vectors(c, f, record);
+  ElementEnergies energies;
+  energies.strain =
+      record[brick_record::volume] * material_.law->energy_density(f.component, history.subspan(own_history));
+  energies.viscous = history[1];
+  if (enhanced_) {
+    const auto strain = hourglass_strains(c, q);
+    const auto stress = hourglass_stresses(strain, record);
+    for (int k = 0; k < 12; ++k) energies.hourglass += 0.5 * strain[k] * stress[k];
+  } else {
+    for (const auto& vector : q) energies.hourglass += 0.5 * record[brick_record::stiffness] * dot(vector, vector);
+  }
+  return energies;
+}
+
+int ReducedBrick::point_components(std::string_view variable) const {
+  return solid_output_components(variable);
+}
+
+void ReducedBrick::point_output(std::string_view variable, std::int32_t element, int, const double* position,
+                                std::span<const double> history, std::span<double> values) const {
+  const Matrix3<double> f = mean_deformation_gradient(coefficients_of<double>(element, position), reference(element));
+  solid_output(variable, material_, f, history.subspan(own_history), values);
+}
+
+}  // namespace balocco

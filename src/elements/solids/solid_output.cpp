@@ -1,0 +1,61 @@
+#include "elements/solids/solid_output.hpp"
+
+#include <Eigen/Dense>
+#include <cmath>
+#include <vector>
+
+namespace balocco {
+
+namespace {
+
+constexpr int voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
+
+void copy_symmetric(const Eigen::Matrix3d& tensor, double shear_factor, std::span<double> values) {
+  for (int a = 0; a < 6; ++a) values[a] = (a < 3 ? 1.0 : shear_factor) * tensor(voigt[a][0], voigt[a][1]);
+}
+
+Eigen::Matrix3d as_eigen(const Matrix3<double>& m) {
+  return Eigen::Map<const Eigen::Matrix<double, 3, 3, Eigen::RowMajor>>(m.component.data());
+}
+
+/// ln V = sum ln(stretch) n (x) n over the eigenvectors of F F^T.
+Eigen::Matrix3d logarithmic_strain(const Eigen::Matrix3d& f) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> left(f * f.transpose());
+  const Eigen::Vector3d logarithms = 0.5 * left.eigenvalues().array().log();
+  return left.eigenvectors() * logarithms.asDiagonal() * left.eigenvectors().transpose();
+}
+
+Eigen::Matrix3d cauchy_stress(const SolidMaterial& material, const Matrix3<double>& f,
+                              std::span<const double> law_history) {
+  Matrix3<double> piola;
+  std::array<double, 81> tangent;
+  std::vector<double> history(law_history.begin(), law_history.end());
+  material.law->tangent(f.component, history, piola.component, tangent);
+  return as_eigen(piola) * as_eigen(f).transpose() / as_eigen(f).determinant();
+}
+
+}  // namespace
+
+int solid_output_components(std::string_view variable) {
+  if (variable == "S" || variable == "LE") return 6;
+  if (variable == "MISES" || variable == "PRESS" || variable == "SENER") return 1;
+  return 0;
+}
+
+void solid_output(std::string_view variable, const SolidMaterial& material, const Matrix3<double>& deformation_gradient,
+                  std::span<const double> law_history, std::span<double> values) {
+  if (variable == "SENER") {
+    values[0] = material.law->energy_density(deformation_gradient.component, law_history);
+  } else if (variable == "LE") {
+    copy_symmetric(logarithmic_strain(as_eigen(deformation_gradient)), 2.0,
+                   values);  // shear as 2 LE12, as Abaqus writes it
+  } else {
+    const Eigen::Matrix3d stress = cauchy_stress(material, deformation_gradient, law_history);
+    const double mean = stress.trace() / 3.0;
+    if (variable == "S") copy_symmetric(stress, 1.0, values);
+    if (variable == "PRESS") values[0] = -mean;
+    if (variable == "MISES") values[0] = std::sqrt(1.5) * (stress - mean * Eigen::Matrix3d::Identity()).norm();
+  }
+}
+
+}  // namespace balocco

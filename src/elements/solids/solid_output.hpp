@@ -1,0 +1,20 @@
+// Output variables of solids, from the state at one integration point.
+#pragma once
+
+#include <span>
+#include <string_view>
+
+#include "elements/solids/solid_reference.hpp"
+#include "math/tensor.hpp"
+
+namespace balocco {
+
+/// Components of S, LE (6), MISES, PRESS, SENER (1); 0 for anything else.
+int solid_output_components(std::string_view variable);
+
+/// S: Cauchy stress; LE: logarithmic strain, both in global directions; MISES; PRESS = -tr S / 3; SENER: recoverable
+/// energy per reference volume. `deformation_gradient` is that of the material directions.
+void solid_output(std::string_view variable, const SolidMaterial& material, const Matrix3<double>& deformation_gradient,
+                  std::span<const double> law_history, std::span<double> values);
+
+}  // namespace balocco

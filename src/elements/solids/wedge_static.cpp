@@ -1,0 +1,9 @@
+#include "elements/solids/full_solid_static.hpp"
+
+namespace balocco {
+
+template bool FullSolid<WedgeShape>::linearize(std::int32_t, const double*, std::span<const double>, std::span<double>,
+                                               std::span<double>, std::span<double>) const;
+template ElementEnergies FullSolid<WedgeShape>::energies(std::int32_t, const double*, std::span<const double>) const;
+
+}  // namespace balocco

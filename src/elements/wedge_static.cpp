@@ -1,9 +1,0 @@
-#include "elements/full_solid_static.hpp"
-
-namespace balocco {
-
-template bool FullSolid<WedgeShape>::linearize(std::int32_t, const double*, std::span<const double>, std::span<double>,
-                                               std::span<double>, std::span<double>) const;
-template ElementEnergies FullSolid<WedgeShape>::energies(std::int32_t, const double*, std::span<const double>) const;
-
-}  // namespace balocco

@@ -1,0 +1,70 @@
+#include "sections/membrane_section.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// What the law bounds its tangent with at zero strain: PointBatch::shear_modulus, doubled.
+double undeformed_modulus(const Law<PointKind::plane>& law, std::span<const double> history) {
+  PointBatch<PointKind::plane> points;
+  points.count = pack_size;
+  std::vector<double> histories(history.size() * pack_size);
+  for (std::size_t c = 0; c < history.size(); ++c)
+    std::fill_n(histories.begin() + static_cast<std::ptrdiff_t>(c * pack_size), pack_size, history[c]);
+  points.history = histories.data();
+  points.history_stride = pack_size;
+  for (auto& component : points.strain) std::fill_n(component, pack_size, 0.0);
+  law.stress(points);
+  return 2.0 * points.shear_modulus[0];
+}
+
+void add_initial_moduli(MembraneSection& result) {
+  std::vector<double> history(result.law->history_size(), 0.0);
+  const std::array<double, 3> undeformed{};
+  std::array<double, 3> stress;
+  result.initial_modulus = undeformed_modulus(*result.law, history);
+  result.law->tangent(undeformed, history, stress, result.initial_stiffness);
+}
+
+}  // namespace
+
+MembraneSection membrane_section(const Model& model, const Section& section) {
+  const auto fail = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: error: *MEMBRANE SECTION: {}", model.where(section.location), what));
+  };
+  MembraneSection result;
+  if (!section.plies.empty()) {
+    const Laminate stack = laminate(model, section);
+    result.law = linear_plane_law(stack.stiffness);
+    result.thickness = stack.thickness;
+    result.density = stack.density;
+    result.damping_stiffness = stack.damping_stiffness;
+    for (const Ply& ply : section.plies)
+      result.damping_beta = std::max(result.damping_beta, model.materials[ply.material].damping_beta);
+    result.linear = true;
+    add_initial_moduli(result);
+  } else {
+    if (section.material < 0) fail("it names no material; add MATERIAL=NAME");
+    const Material& material = model.materials[section.material];
+    const MaterialLaw* law = find_material_law(material.law);
+    if (law == nullptr || law->plane == nullptr)
+      fail(fmt::format("material {} has no plane-stress law; give it *ELASTIC or *HYPERELASTIC", material.name));
+    result.law = law->plane(material.parameters);
+    result.thickness = section.thickness;
+    result.density = material.density;
+    result.damping_beta = material.damping_beta;
+    result.linear = law->lamina_stiffness != nullptr;
+    add_initial_moduli(result);
+    for (int i = 0; i < 9; ++i) result.damping_stiffness[i] = material.damping_beta * result.initial_stiffness[i];
+  }
+  if (!(result.thickness > 0.0)) fail(fmt::format("its thickness is {}; it must be positive", result.thickness));
+  return result;
+}
+
+}  // namespace balocco
