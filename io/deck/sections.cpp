@@ -5,96 +5,16 @@
 
 #include "deck/builder.hpp"
 #include "deck/register.hpp"
-#include "deck/text.hpp"
+#include "deck/section_assignment.hpp"
 #include "elements/element_type.hpp"
 
 namespace balocco::deck {
 
 namespace {
 
-const char* describe(Section::Kind kind) {
-  switch (kind) {
-    case Section::Kind::solid:
-      return "*SOLID SECTION";
-    case Section::Kind::membrane:
-      return "*MEMBRANE SECTION";
-    case Section::Kind::truss:
-      return "*SOLID SECTION with an area";
-    case Section::Kind::mass:
-      return "*MASS";
-    case Section::Kind::rotary_inertia:
-      return "*ROTARY INERTIA";
-  }
-  return "";
-}
-
-/// Gives the section to the elements of its set; what has one already, or needs another kind, is told once.
-void assign(Builder& builder, const Block& block, Section section, const std::vector<ElementRef>& elements) {
-  const auto row = static_cast<std::int32_t>(builder.model.sections.size());
-  for (const auto element : elements) {
-    ElementTable& table = builder.model.elements[element.table];
-    std::int32_t& owner = table.section[element.row];
-    if (table.type->section != section.kind) {
-      return builder.error(block, block.location,
-                           fmt::format("element {} of type {} cannot have this section; it needs {}",
-                                       table.id[element.row], table.type->name, describe(table.type->section)));
-    }
-    if (owner >= 0) {
-      return builder.error(
-          block, block.location,
-          fmt::format("element {} already has the section of {}; take it out of one of the sets", table.id[element.row],
-                      builder.model.where(builder.model.sections[owner].location)));
-    }
-    owner = row;
-  }
-  builder.model.sections.push_back(std::move(section));
-}
-
-/// What all sections have in common. Returns nothing if a reference is undefined (told).
-std::optional<Section> begin(Builder& builder, const Block& block, std::vector<ElementRef>& elements) {
-  Section section;
-  section.location = block.location;
-  const std::string set = block.value("ELSET");
-  bool good = builder.elements_of(set, block, block.location, elements);
-  if (const auto row = builder.find(builder.element_sets, set))
-    section.element_set = builder.model.element_sets[*row].name;
-  if (block.has("MATERIAL")) {
-    const auto material = builder.require(builder.materials, block.value("MATERIAL"), block, block.location);
-    section.material = material.value_or(-1);
-    good = good && material;
-  }
-  if (block.has("ORIENTATION")) {
-    const auto orientation = builder.require(builder.orientations, block.value("ORIENTATION"), block, block.location);
-    section.orientation = orientation.value_or(-1);
-    good = good && orientation;
-  }
-  if (block.has("CONTROLS")) {
-    const std::string name = block.value("CONTROLS");
-    const auto controls = builder.section_controls.find(name);
-    if (controls == builder.section_controls.end()) {
-      if (!builder.is_poisoned(name)) {
-        builder.error(block, block.location,
-                      fmt::format("section controls {} are not defined; define them under *SECTION CONTROLS", name));
-      }
-      good = false;
-    } else {
-      section.hourglass = controls->second.hourglass;
-      section.hourglass_scale = controls->second.hourglass_scale;
-    }
-  }
-  // An empty set has been told, or is what is left of refused elements.
-  return good && !elements.empty() ? std::optional(section) : std::nullopt;
-}
-
-bool need_material(Builder& builder, const Block& block) {
-  if (block.has("MATERIAL")) return true;
-  builder.error(block, block.location, "the material is not named; add MATERIAL=...");
-  return false;
-}
-
 void read_solid_section(Builder& builder, const Block& block) {
   std::vector<ElementRef> elements;
-  auto section = begin(builder, block, elements);
+  auto section = begin_section(builder, block, elements);
   if (!section || !need_material(builder, block)) return;
   const auto kind = builder.model.elements[elements[0].table].type->section;
   section->kind = kind == Section::Kind::truss ? kind : Section::Kind::solid;
@@ -110,7 +30,7 @@ void read_solid_section(Builder& builder, const Block& block) {
       return row.error("solid elements have no area or thickness; remove the data line");
     }
   }
-  assign(builder, block, *std::move(section), elements);
+  assign_section(builder, block, *std::move(section), elements);
 }
 
 /// Lines "thickness, , material, angle" of a composite membrane.
@@ -143,7 +63,7 @@ bool read_plies(Builder& builder, const Block& block, Section& section) {
 
 void read_membrane_section(Builder& builder, const Block& block) {
   std::vector<ElementRef> elements;
-  auto section = begin(builder, block, elements);
+  auto section = begin_section(builder, block, elements);
   if (!section) return;
   section->kind = Section::Kind::membrane;
   if (block.real("OFFSET", 0.0) != 0.0) {
@@ -165,12 +85,12 @@ void read_membrane_section(Builder& builder, const Block& block) {
     }
     if (!row.ok()) return;
   }
-  assign(builder, block, *std::move(section), elements);
+  assign_section(builder, block, *std::move(section), elements);
 }
 
 void read_mass(Builder& builder, const Block& block) {
   std::vector<ElementRef> elements;
-  auto section = begin(builder, block, elements);
+  auto section = begin_section(builder, block, elements);
   if (!section) return;
   section->kind = Section::Kind::mass;
   if (block.lines.empty()) return builder.error(block, block.location, "the mass is missing; add a data line");
@@ -178,12 +98,12 @@ void read_mass(Builder& builder, const Block& block) {
   section->mass = row.real(0, "mass");
   row.at_most(1);
   if (row.ok() && !(section->mass > 0.0)) row.error(fmt::format("mass {} must be positive; correct it", section->mass));
-  if (row.ok()) assign(builder, block, *std::move(section), elements);
+  if (row.ok()) assign_section(builder, block, *std::move(section), elements);
 }
 
 void read_rotary_inertia(Builder& builder, const Block& block) {
   std::vector<ElementRef> elements;
-  auto section = begin(builder, block, elements);
+  auto section = begin_section(builder, block, elements);
   if (!section) return;
   section->kind = Section::Kind::rotary_inertia;
   if (block.lines.empty())
@@ -195,7 +115,7 @@ void read_rotary_inertia(Builder& builder, const Block& block) {
     if (row.ok() && i < 3 && section->inertia[i] < 0.0) row.error("a moment of inertia is negative; correct it");
   }
   row.at_most(6);
-  if (row.ok()) assign(builder, block, *std::move(section), elements);
+  if (row.ok()) assign_section(builder, block, *std::move(section), elements);
 }
 
 void read_section_controls(Builder& builder, const Block& block) {

@@ -1,0 +1,91 @@
+#include "deck/section_assignment.hpp"
+
+#include <fmt/format.h>
+
+#include "elements/element_type.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+const char* describe(Section::Kind kind) {
+  switch (kind) {
+    case Section::Kind::solid:
+      return "*SOLID SECTION";
+    case Section::Kind::membrane:
+      return "*MEMBRANE SECTION";
+    case Section::Kind::truss:
+      return "*SOLID SECTION with an area";
+    case Section::Kind::mass:
+      return "*MASS";
+    case Section::Kind::rotary_inertia:
+      return "*ROTARY INERTIA";
+  }
+  return "";
+}
+
+}  // namespace
+
+void assign_section(Builder& builder, const Block& block, Section section, const std::vector<ElementRef>& elements) {
+  const auto row = static_cast<std::int32_t>(builder.model.sections.size());
+  for (const auto element : elements) {
+    ElementTable& table = builder.model.elements[element.table];
+    std::int32_t& owner = table.section[element.row];
+    if (table.type->section != section.kind) {
+      return builder.error(block, block.location,
+                           fmt::format("element {} of type {} cannot have this section; it needs {}",
+                                       table.id[element.row], table.type->name, describe(table.type->section)));
+    }
+    if (owner >= 0) {
+      return builder.error(
+          block, block.location,
+          fmt::format("element {} already has the section of {}; take it out of one of the sets", table.id[element.row],
+                      builder.model.where(builder.model.sections[owner].location)));
+    }
+    owner = row;
+  }
+  builder.model.sections.push_back(std::move(section));
+}
+
+std::optional<Section> begin_section(Builder& builder, const Block& block, std::vector<ElementRef>& elements) {
+  Section section;
+  section.location = block.location;
+  const std::string set = block.value("ELSET");
+  bool good = builder.elements_of(set, block, block.location, elements);
+  if (const auto row = builder.find(builder.element_sets, set))
+    section.element_set = builder.model.element_sets[*row].name;
+  if (block.has("MATERIAL")) {
+    const auto material = builder.require(builder.materials, block.value("MATERIAL"), block, block.location);
+    section.material = material.value_or(-1);
+    good = good && material;
+  }
+  if (block.has("ORIENTATION")) {
+    const auto orientation = builder.require(builder.orientations, block.value("ORIENTATION"), block, block.location);
+    section.orientation = orientation.value_or(-1);
+    good = good && orientation;
+  }
+  if (block.has("CONTROLS")) {
+    const std::string name = block.value("CONTROLS");
+    const auto controls = builder.section_controls.find(name);
+    if (controls == builder.section_controls.end()) {
+      if (!builder.is_poisoned(name)) {
+        builder.error(block, block.location,
+                      fmt::format("section controls {} are not defined; define them under *SECTION CONTROLS", name));
+      }
+      good = false;
+    } else {
+      section.hourglass = controls->second.hourglass;
+      section.hourglass_scale = controls->second.hourglass_scale;
+    }
+  }
+  // An empty set has been told, or is what is left of refused elements.
+  return good && !elements.empty() ? std::optional(section) : std::nullopt;
+}
+
+bool need_material(Builder& builder, const Block& block) {
+  if (block.has("MATERIAL")) return true;
+  builder.error(block, block.location, "the material is not named; add MATERIAL=...");
+  return false;
+}
+
+}  // namespace balocco::deck
