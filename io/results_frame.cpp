@@ -46,7 +46,7 @@ void mean_output(const ElementGroup& group, std::string_view variable, std::int3
   std::vector<double> history(group.history_size());
   group.gather_history(element, state.element_history[group_index], history);
   for (int point = 0; point < points; ++point) {
-    group.output(variable, element, point, state.position.data(), history,
+    group.output(variable, element, point, state.motion(), history,
                  std::span(at_point).first(values.size()));
     for (std::size_t c = 0; c < values.size(); ++c) values[c] += at_point[c];
   }
@@ -144,7 +144,7 @@ std::vector<double> FrameWriter::element_values(const Field& field, const Result
       history.resize(group.history_size());
       group.gather_history(element, state.element_history[rows.group_index[g]], history);
       for (int point = 0; point < group.integration_points(); ++point) {
-        group.output(field.variable, element, point, state.position.data(), history,
+        group.output(field.variable, element, point, state.motion(), history,
                      {row + static_cast<std::ptrdiff_t>(point) * field.components, components});
       }
     }

@@ -203,7 +203,7 @@ EnergyBalance Analysis::energies() const {
     std::vector<double> history(group.history_size());
     for (std::int32_t e = 0; e < group.size(); ++e) {
       group.gather_history(e, current.element_history[index], history);
-      const auto energy = group.energies(e, current.position.data(), history);
+      const auto energy = group.energies(e, current.motion(), history);
       sums[strain].add(energy.strain);
       sums[hourglass].add(energy.hourglass);
       sums[viscous].add(energy.viscous);

@@ -48,7 +48,8 @@ double reference_increment(const Analysis& analysis) {
       force(position.size(), 0.0);
   for (std::int32_t node = 0; node < domain.size(); ++node)
     std::copy_n(analysis.model.nodes.coordinates[domain.node_row[node]].data(), 3, &position[4 * node]);
-  const ExplicitCycle cycle{.position = position.data(), .velocity = velocity.data(), .force = force.data()};
+  const ExplicitCycle cycle{.motion = {.position = position.data(), .velocity = velocity.data()},
+                            .forces = {.force = force.data()}};
   StableIncrement smallest;
   for (const auto& group : analysis.element_groups) {
     auto history = group->initial_history();

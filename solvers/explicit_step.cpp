@@ -162,9 +162,8 @@ void ExplicitStep::begin_external_loads() {
 
 void ExplicitStep::add_elements(Portion portion) {
   auto& state = analysis_.current;
-  const ExplicitCycle cycle{.position = state.position.data(),
-                            .velocity = state.velocity.data(),
-                            .force = force_.data(),
+  const ExplicitCycle cycle{.motion = state.motion(),
+                            .forces = {.force = force_.data()},
                             .increment = last_increment_,
                             .linear_bulk_viscosity = step_.explicit_procedure.linear_bulk_viscosity,
                             .quadratic_bulk_viscosity = step_.explicit_procedure.quadratic_bulk_viscosity};

@@ -84,7 +84,7 @@ void ImplicitSystem::add_element(std::size_t index, std::int32_t element, bool& 
   old_history_.resize(group.history_size());
   new_history_.resize(group.history_size());
   group.gather_history(element, analysis_.current.element_history[index], old_history_);
-  if (!group.linearize(element, analysis_.current.position.data(), old_history_, new_history_, force_, block_)) {
+  if (!group.linearize(element, analysis_.current.motion(), old_history_, new_history_, force_, block_)) {
     inverted_element_ = analysis_.model.elements[group.table()].id[group.row(element)];
     sound = false;
     return;

@@ -29,6 +29,7 @@ ElementGroup::ElementGroup(const GroupInput& input)
       padded_size_(whole_packs(size_)),
       interface_padded_(std::min(whole_packs(input.interface_count), padded_size_)),
       nodes_per_element_(input.model.elements[input.table].type->nodes),
+      freedoms_per_node_(input.model.elements[input.table].type->turns ? 6 : 3),
       rows_(input.rows),
       connectivity_(input.connectivity),
       scatter_(input.connectivity) {
@@ -58,16 +59,20 @@ void ElementGroup::scatter_history(std::int32_t element, std::span<const double>
     group_history[component * padded_size_ + element] = own[component];
 }
 
+void ElementGroup::lumped_rotary_inertia(std::int32_t, std::span<double> inertia) const {
+  std::fill(inertia.begin(), inertia.end(), 0.0);
+}
+
 int ElementGroup::output_components(std::string_view variable) const {
   return whole_element_energy(variable) != nullptr ? 1 : point_components(variable);
 }
 
-void ElementGroup::output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+void ElementGroup::output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                           std::span<const double> history, std::span<double> values) const {
   if (const auto energy = whole_element_energy(variable); energy != nullptr) {
-    values[0] = energies(element, position, history).*energy;
+    values[0] = energies(element, motion, history).*energy;
   } else {
-    point_output(variable, element, integration_point, position, history, values);
+    point_output(variable, element, integration_point, motion, history, values);
   }
 }
 

@@ -2,7 +2,7 @@
 //
 // Nodal arrays are local to the rank and hold 4 doubles a node: x, y, z and a fourth that is zero, except in `force`, where the
 // fourth is the node's rounding constant (math/exact_sum.hpp): a kernel adds rounded(f, force[4 * node + 3]) and never
-// changes the fourth. Elements are padded to whole packs; padded lanes repeat a real element and add their force to the
+// changes the fourth. Moments likewise, of nodes that turn alone (ElementType::turns). Elements are padded to whole packs; padded lanes repeat a real element and add their force to the
 // scratch node behind the last real one.
 //
 // The history of a group is a structure of arrays, history[component * padded_size() + element]; functions that look at one
@@ -15,6 +15,7 @@
 #include <string_view>
 #include <vector>
 
+#include "elements/nodal_motion.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -31,9 +32,8 @@ struct GroupInput {
 
 /// What an explicit cycle hands to the kernels.
 struct ExplicitCycle {
-  const double* position = nullptr;  // at the end of the increment
-  const double* velocity = nullptr;  // over the increment (half step)
-  double* force = nullptr;           // INTERNAL force is SUBTRACTED: force accumulates external - internal
+  NodalMotion motion;                // at the end of the increment
+  NodalForces forces;                // INTERNAL force is SUBTRACTED: they accumulate external - internal
   double increment = 0.0;            // time over which the positions moved; 0: none yet (no rate effects)
   double linear_bulk_viscosity = 0.0, quadratic_bulk_viscosity = 0.0;
 };
@@ -73,6 +73,8 @@ class ElementGroup {
     return {connectivity_.data() + element * nodes_per_element_, static_cast<std::size_t>(nodes_per_element_)};
   }
   int nodes_per_element() const { return nodes_per_element_; }
+  /// 6 where the nodes turn (node by node: force, moment), else 3.
+  int freedoms_per_node() const { return freedoms_per_node_; }
 
   /// Doubles of history an element carries, and their values in the undeformed state (one element's own).
   virtual int history_size() const = 0;
@@ -87,23 +89,27 @@ class ElementGroup {
   /// Lumped mass of each node of an element (unscaled sum = density x reference volume).
   virtual void lumped_mass(std::int32_t element, std::span<double> mass) const = 0;
 
+  /// Lumped rotary inertia of each node, the same about all axes (mass x length^2); asked only where nodes turn.
+  virtual void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const;
+
   /// Adds external - internal forces of a portion of the elements, updates their history in place and returns the smallest
   /// stable increment (2 / omega_max of a free element, with damping). Nothing allocates, throws or branches per element.
   virtual StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const = 0;
 
-  /// Internal force of one element (3 a node) at `position`, its exact derivative (row-major, square) unless `stiffness` is
-  /// empty, and the history after an increment that started from `old_history`. Static: no rate effects.
+  /// Internal force of one element (freedoms_per_node() a node: force, moment) where its nodes are, its exact derivative
+  /// (row-major, square) unless `stiffness` is empty, and the history after an increment that started from `old_history`.
+  /// Static: no rate effects. A derivative by a rotation is one by the spin d_theta in global axes: R <- exp(d_theta) R.
   /// @return false if the element is inverted (a Jacobian <= 0), with outputs unspecified.
-  virtual bool linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+  virtual bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                          std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const = 0;
 
-  virtual ElementEnergies energies(std::int32_t element, const double* position, std::span<const double> history) const = 0;
+  virtual ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const = 0;
 
   /// Number of components of an output variable, 0 where the element has none: those of its points (S 6, LE 6, MISES 1, SENER 1,
   /// STH 1 ...) and the energies of the whole element, ELSE (elastic strain) and ELASE (artificial strain: hourglass).
   int output_components(std::string_view variable) const;
   /// Values of a variable at one integration point, tensors in order 11 22 33 12 13 23; whole-element variables are the same at each.
-  void output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+  void output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
               std::span<const double> history, std::span<double> values) const;
   virtual int integration_points() const = 0;
 
@@ -112,11 +118,11 @@ class ElementGroup {
 
  protected:
   virtual int point_components(std::string_view variable) const = 0;
-  virtual void point_output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+  virtual void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                             std::span<const double> history, std::span<double> values) const = 0;
 
   std::int32_t table_, section_, size_, padded_size_, interface_padded_;
-  int nodes_per_element_;
+  int nodes_per_element_, freedoms_per_node_;
   std::vector<std::int32_t> rows_;          // padded
   std::vector<std::int32_t> connectivity_;  // padded, scratch node never inside: padded lanes GATHER from a real element
   std::vector<std::int32_t> scatter_;       // as connectivity_, but padded lanes point to the scratch node

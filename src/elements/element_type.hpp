@@ -19,6 +19,7 @@ struct ElementType {
   Shape shape = Shape::point;
   int nodes = 1;
   int integration_points = 1;
+  bool turns = false;  // its nodes rotate: 6 freedoms a node
   Section::Kind section = Section::Kind::solid;
   /// Local node numbers of each face, counter-clockwise seen from outside (membranes: SPOS then SNEG).
   std::vector<std::vector<int>> faces;

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "elements/nodal_motion.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -54,6 +55,8 @@ struct State {
   std::vector<std::vector<double>> element_history;       // per element group
   std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
   std::vector<RigidBodyState> rigid_bodies;
+
+  NodalMotion motion() const { return {.position = position.data(), .velocity = velocity.data()}; }
 };
 
 }  // namespace balocco

@@ -108,7 +108,7 @@ void cycle_elements(benchmark::State& state, const Subject& subject) {
     force[4 * i + 3] = rounding_constant(1e3);
   }
   std::vector<double> history = group->initial_history();
-  const ExplicitCycle cycle{position.data(), velocity.data(), force.data(), 1e-3, 0.06, 1.2};
+  const ExplicitCycle cycle{{position.data(), velocity.data()}, {force.data()}, 1e-3, 0.06, 1.2};
   for (auto _ : state) benchmark::DoNotOptimize(group->add_forces(Portion::interior, cycle, history));
 
   const double cycles = static_cast<double>(state.iterations()) * count;

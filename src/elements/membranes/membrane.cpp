@@ -160,9 +160,9 @@ void MembraneGroup<corners, points>::finish(const Block& block, const ExplicitCy
     Vector3<Pack> on_first;
     for (int i = 0; i < Layout::edges; ++i) {
       on_first = on_first - block.force[pack][i];
-      scatter_subtract(block.force[pack][i], scatter + i + 1, corners, cycle.force);
+      scatter_subtract(block.force[pack][i], scatter + i + 1, corners, cycle.forces.force);
     }
-    scatter_subtract(on_first, scatter, corners, cycle.force);
+    scatter_subtract(on_first, scatter, corners, cycle.forces.force);
     store_unaligned(load_unaligned(dissipation + element) + block.dissipated[pack], dissipation + element);
 
     const Pack increment = stable_increment(block, pack, cycle);
@@ -183,9 +183,9 @@ StableIncrement MembraneGroup<corners, points>::add_forces(Portion portion, cons
     block.packs = std::min(block_capacity, end - block.first) / pack_size;
     for (int pack = 0; pack < block.packs; ++pack) {
       const std::int32_t* const node = connectivity_.data() + (block.first + pack * pack_size) * corners;
-      const Vector3<Pack> origin = gather(cycle.position, node, corners);
+      const Vector3<Pack> origin = gather(cycle.motion.position, node, corners);
       for (int i = 0; i < Layout::edges; ++i) {
-        block.edge[pack][i] = gather(cycle.position, node + i + 1, corners) - origin;
+        block.edge[pack][i] = gather(cycle.motion.position, node + i + 1, corners) - origin;
         block.force[pack][i] = {};
       }
       block.mean_tangents[pack] = {};

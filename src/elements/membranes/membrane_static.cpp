@@ -83,7 +83,7 @@ bool MembraneGroup<corners, points>::internal_force(std::int32_t element,
 }
 
 template <int corners, int points>
-bool MembraneGroup<corners, points>::linearize(std::int32_t element, const double* position,
+bool MembraneGroup<corners, points>::linearize(std::int32_t element, const NodalMotion& motion,
                                              std::span<const double> old_history, std::span<double> new_history,
                                              std::span<double> force, std::span<double> stiffness) const {
   constexpr int size = 3 * corners;
@@ -98,14 +98,14 @@ bool MembraneGroup<corners, points>::linearize(std::int32_t element, const doubl
   };
   if (stiffness.empty()) {
     typename MembraneKernel<double, corners, points>::Edges on_edges{};
-    const auto edge = element_edges<double, Layout::edges>(ElementGroup::nodes(element), position);
+    const auto edge = element_edges<double, Layout::edges>(ElementGroup::nodes(element), motion.position);
     if (!internal_force<double>(element, edge, new_history, on_edges)) return false;
     spread(on_edges);
     return true;
   }
   using Scalar = Dual<size>;
   typename MembraneKernel<Scalar, corners, points>::Edges on_edges{};
-  const auto edge = element_edges<Scalar, Layout::edges>(ElementGroup::nodes(element), position);
+  const auto edge = element_edges<Scalar, Layout::edges>(ElementGroup::nodes(element), motion.position);
   if (!internal_force<Scalar>(element, edge, new_history, on_edges)) return false;
   spread(on_edges);
   std::fill(stiffness.begin(), stiffness.end(), 0.0);
@@ -136,12 +136,12 @@ void MembraneGroup<corners, points>::lumped_mass(std::int32_t element, std::span
 }
 
 template <int corners, int points>
-ElementEnergies MembraneGroup<corners, points>::energies(std::int32_t element, const double* position,
+ElementEnergies MembraneGroup<corners, points>::energies(std::int32_t element, const NodalMotion& motion,
                                                        std::span<const double> history) const {
   using Kernel = MembraneKernel<double, corners, points>;
   const double* const data = reference(element);
   const int law_size = section_data_.law->history_size();
-  const auto edge = element_edges<double, Layout::edges>(ElementGroup::nodes(element), position);
+  const auto edge = element_edges<double, Layout::edges>(ElementGroup::nodes(element), motion.position);
   ElementEnergies result;
   for (int q = 0; q < points; ++q) {
     const auto tangents = Kernel::tangents(data, q, edge);
@@ -162,12 +162,12 @@ int MembraneGroup<corners, points>::point_components(std::string_view variable) 
 
 template <int corners, int points>
 void MembraneGroup<corners, points>::point_output(std::string_view variable, std::int32_t element, int integration_point,
-                                                  const double* position, std::span<const double> history,
+                                                  const NodalMotion& motion, std::span<const double> history,
                                                   std::span<double> values) const {
   using Kernel = MembraneKernel<double, corners, points>;
   const Law<PointKind::plane>& law = *section_data_.law;
   const double* const data = reference(element);
-  const auto edge = element_edges<double, Layout::edges>(ElementGroup::nodes(element), position);
+  const auto edge = element_edges<double, Layout::edges>(ElementGroup::nodes(element), motion.position);
   const auto strain = Kernel::strain(data, Kernel::tangents(data, integration_point, edge), edge);
   const auto law_history = history.subspan(integration_point * law.history_size(), law.history_size());
   const double thickness_ratio = law.transverse_stretch(strain);

@@ -2,9 +2,9 @@
 
 namespace balocco {
 
-template bool FullSolid<HexahedronShape>::linearize(std::int32_t, const double*, std::span<const double>,
+template bool FullSolid<HexahedronShape>::linearize(std::int32_t, const NodalMotion&, std::span<const double>,
                                                     std::span<double>, std::span<double>, std::span<double>) const;
-template ElementEnergies FullSolid<HexahedronShape>::energies(std::int32_t, const double*,
+template ElementEnergies FullSolid<HexahedronShape>::energies(std::int32_t, const NodalMotion&,
                                                               std::span<const double>) const;
 
 }  // namespace balocco

@@ -28,14 +28,14 @@ class FullSolid final : public ElementGroup {
     std::fill(mass.begin(), mass.end(), material_.density * reference(element)[Record::volume] / Shape::nodes);
   }
   StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
-  bool linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+  bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
-  ElementEnergies energies(std::int32_t element, const double* position,
+  ElementEnergies energies(std::int32_t element, const NodalMotion& motion,
                            std::span<const double> history) const override;
   int point_components(std::string_view variable) const override { return solid_output_components(variable); }
-  void point_output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+  void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double>, std::span<double> values) const override {
-    const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, position), reference(element));
+    const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), reference(element));
     solid_output(variable, material_, k.modified[integration_point], {}, values);
   }
   int integration_points() const override { return Shape::points; }

@@ -111,7 +111,7 @@ template <class Shape>
                                                  std::span<double> history) const {
   const PackReference reference = pack_reference(element);
   prefetch_record(reference.data + pack_size * Record::size, Record::size);
-  const auto k = full_solid_kinematics<Shape>(gather_coefficients(element, cycle.position), reference);
+  const auto k = full_solid_kinematics<Shape>(gather_coefficients(element, cycle.motion.position), reference);
   for (int q = 0; q < Shape::points; ++q)
     for (int i = 0; i < 9; ++i) store(k.modified[q].component[i], &points.strain[i][pack_size * q]);
   material_.law->stress(points);
@@ -133,7 +133,7 @@ template <class Shape>
   const auto forces = Shape::nodal(full_solid_conjugates<Shape>(k, stress, mean_stress, reference));
   const std::int32_t* targets = scatter_.data() + static_cast<std::size_t>(element) * Shape::nodes;
   for (int node = 0; node < Shape::nodes; ++node)
-    scatter_subtract(forces[node], targets + node, Shape::nodes, cycle.force);
+    scatter_subtract(forces[node], targets + node, Shape::nodes, cycle.forces.force);
   k.mean_jacobian.copy_to(&history[element], std::experimental::element_aligned);
   dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
   return stable_increment(k, stress, points, viscosity.slope(length, rate), damped, reference);
@@ -143,7 +143,7 @@ template <class Shape>
 Pack FullSolid<Shape>::add_damping(std::int32_t element, const ExplicitCycle& cycle,
                                    const FullSolidKinematics<Pack, Shape>& k, Tensors<Pack>& stress) const {
   const PackReference reference = pack_reference(element);
-  const auto c_rate = gather_coefficients(element, cycle.velocity);
+  const auto c_rate = gather_coefficients(element, cycle.motion.velocity);
   Tensors<Pack> rate;                          // s dF/dt, then dFbar/dt
   std::array<Pack, Shape::points> dilatation;  // d(ln J)/dt
   const Pack inverse = 1.0 / k.mean_jacobian;

@@ -10,13 +10,13 @@
 namespace balocco {
 
 template <class Shape>
-bool FullSolid<Shape>::linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+bool FullSolid<Shape>::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                                  std::span<double> new_history, std::span<double> force,
                                  std::span<double> stiffness) const {
   constexpr int dofs = 3 * Shape::nodes;
   using Derivative = Dual<dofs>;
   const LaneReference record = reference(element);
-  const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, position), record);
+  const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), record);
   for (const double jacobian : k.jacobian)
     if (!(jacobian > 0.0)) return false;
   std::copy(old_history.begin(), old_history.end(), new_history.begin());
@@ -31,7 +31,7 @@ bool FullSolid<Shape>::linearize(std::int32_t element, const double* position, s
     for (int i = 0; i < dofs; ++i) force[i] = forces[i / 3][i % 3];
     return true;
   }
-  const auto k_dual = full_solid_kinematics<Shape>(coefficients_of<Derivative>(element, position), record);
+  const auto k_dual = full_solid_kinematics<Shape>(coefficients_of<Derivative>(element, motion.position), record);
   Tensors<Derivative> stress_dual;
   for (int q = 0; q < Shape::points; ++q) {
     for (int i = 0; i < 9; ++i) {
@@ -51,10 +51,10 @@ bool FullSolid<Shape>::linearize(std::int32_t element, const double* position, s
 }
 
 template <class Shape>
-ElementEnergies FullSolid<Shape>::energies(std::int32_t element, const double* position,
+ElementEnergies FullSolid<Shape>::energies(std::int32_t element, const NodalMotion& motion,
                                            std::span<const double> history) const {
   const LaneReference record = reference(element);
-  const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, position), record);
+  const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), record);
   ElementEnergies energies;
   for (int q = 0; q < Shape::points; ++q)
     energies.strain += record[Record::point(q) + 9] * material_.law->energy_density(k.modified[q].component, {});

@@ -89,7 +89,7 @@ template <bool enhanced, bool damped>
   prefetch_record(reference.data + pack_size * brick_record::size, brick_record::size);
   const std::int32_t* nodes = connectivity_.data() + static_cast<std::size_t>(element) * nodes_per_brick;
   std::array<Vector3<Pack>, nodes_per_brick> x;
-  for (int node = 0; node < nodes_per_brick; ++node) x[node] = gather(cycle.position, nodes + node, nodes_per_brick);
+  for (int node = 0; node < nodes_per_brick; ++node) x[node] = gather(cycle.motion.position, nodes + node, nodes_per_brick);
   const HexahedronCoefficients<Pack> c = coefficients(x);
   const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
   for (int k = 0; k < 9; ++k) store(f.component[k], points.strain[k]);
@@ -114,7 +114,7 @@ template <bool enhanced, bool damped>
   HexahedronCoefficients<Pack> conjugates;
   if constexpr (damped) {
     std::array<Vector3<Pack>, nodes_per_brick> v;
-    for (int node = 0; node < nodes_per_brick; ++node) v[node] = gather(cycle.velocity, nodes + node, nodes_per_brick);
+    for (int node = 0; node < nodes_per_brick; ++node) v[node] = gather(cycle.motion.velocity, nodes + node, nodes_per_brick);
     const BrickMotion<Pack> motion{c, f, q};
     conjugates = damped_conjugates<enhanced>(motion, coefficients(v), stress, material_, reference, cycle.increment,
                                              dissipation);
@@ -127,7 +127,7 @@ template <bool enhanced, bool damped>
   const std::array<Vector3<Pack>, nodes_per_brick> forces = nodal_forces(conjugates);
   const std::int32_t* targets = scatter_.data() + static_cast<std::size_t>(element) * nodes_per_brick;
   for (int node = 0; node < nodes_per_brick; ++node)
-    scatter_subtract(forces[node], targets + node, nodes_per_brick, cycle.force);
+    scatter_subtract(forces[node], targets + node, nodes_per_brick, cycle.forces.force);
 
   invariant.jacobian.copy_to(&history[element], std::experimental::element_aligned);
   dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);

@@ -20,12 +20,12 @@ class ReducedBrick final : public ElementGroup {
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
   StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
-  bool linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+  bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
-  ElementEnergies energies(std::int32_t element, const double* position,
+  ElementEnergies energies(std::int32_t element, const NodalMotion& motion,
                            std::span<const double> history) const override;
   int point_components(std::string_view variable) const override;
-  void point_output(std::string_view variable, std::int32_t element, int integration_point, const double* position,
+  void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override;
   int integration_points() const override { return 1; }
   std::size_t bytes_per_element() const override;

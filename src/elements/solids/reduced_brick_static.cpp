@@ -34,12 +34,12 @@ std::array<Vector3<T>, 8> ReducedBrick::static_forces(const HexahedronCoefficien
   return nodal_forces(conjugates_with_stresses(c, q, hourglass_stress, integrated, reference));
 }
 
-bool ReducedBrick::linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                              std::span<double> new_history, std::span<double> force,
                              std::span<double> stiffness) const {
   using Derivative = Dual<3 * nodes_per_brick>;
   const LaneReference record = reference(element);
-  const auto c = coefficients_of<double>(element, position);
+  const auto c = coefficients_of<double>(element, motion.position);
   const Matrix3<double> f = mean_deformation_gradient(c, record);
   const double jacobian = determinant(f, cofactor(f));
   if (!(jacobian > 0.0)) return false;
@@ -55,7 +55,7 @@ bool ReducedBrick::linearize(std::int32_t element, const double* position, std::
     for (int i = 0; i < 3 * nodes_per_brick; ++i) force[i] = forces[i / 3][i % 3];
     return true;
   }
-  const auto c_dual = coefficients_of<Derivative>(element, position);
+  const auto c_dual = coefficients_of<Derivative>(element, motion.position);
   const Matrix3<Derivative> f_dual = mean_deformation_gradient(c_dual, record);
   Matrix3<Derivative> stress_dual;
   for (int i = 0; i < 9; ++i) {
@@ -73,10 +73,10 @@ bool ReducedBrick::linearize(std::int32_t element, const double* position, std::
   return true;
 }
 
-ElementEnergies ReducedBrick::energies(std::int32_t element, const double* position,
+ElementEnergies ReducedBrick::energies(std::int32_t element, const NodalMotion& motion,
                                        std::span<const double> history) const {
   const LaneReference record = reference(element);
-  const auto c = coefficients_of<double>(element, position);
+  const auto c = coefficients_of<double>(element, motion.position);
   const Matrix3<double> f = mean_deformation_gradient(c, record);
   const auto q = hourglass_vectors(c, f, record);
   ElementEnergies energies;
@@ -97,9 +97,9 @@ int ReducedBrick::point_components(std::string_view variable) const {
   return solid_output_components(variable);
 }
 
-void ReducedBrick::point_output(std::string_view variable, std::int32_t element, int, const double* position,
+void ReducedBrick::point_output(std::string_view variable, std::int32_t element, int, const NodalMotion& motion,
                                 std::span<const double> history, std::span<double> values) const {
-  const Matrix3<double> f = mean_deformation_gradient(coefficients_of<double>(element, position), reference(element));
+  const Matrix3<double> f = mean_deformation_gradient(coefficients_of<double>(element, motion.position), reference(element));
   solid_output(variable, material_, f, history.subspan(own_history), values);
 }
 

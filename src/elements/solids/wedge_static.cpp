@@ -2,8 +2,8 @@
 
 namespace balocco {
 
-template bool FullSolid<WedgeShape>::linearize(std::int32_t, const double*, std::span<const double>, std::span<double>,
+template bool FullSolid<WedgeShape>::linearize(std::int32_t, const NodalMotion&, std::span<const double>, std::span<double>,
                                                std::span<double>, std::span<double>) const;
-template ElementEnergies FullSolid<WedgeShape>::energies(std::int32_t, const double*, std::span<const double>) const;
+template ElementEnergies FullSolid<WedgeShape>::energies(std::int32_t, const NodalMotion&, std::span<const double>) const;
 
 }  // namespace balocco

@@ -130,7 +130,7 @@ StableIncrement TrussGroup::add_forces(Portion portion, const ExplicitCycle& cyc
     for (int slot = 0; slot < batch.count; slot += pack_size) {
       const std::int32_t* const node = connectivity_.data() + 2 * (first + slot);
       const Pack length = load(length_.data() + first + slot);
-      axis[slot / pack_size] = gather(cycle.position, node + 1, 2) - gather(cycle.position, node, 2);
+      axis[slot / pack_size] = gather(cycle.motion.position, node + 1, 2) - gather(cycle.motion.position, node, 2);
       store(truss_strain(axis[slot / pack_size], Pack(1.0 / (length * length))), batch.strain[0] + slot);
     }
     batch.history = history.data() + first;
@@ -140,8 +140,8 @@ StableIncrement TrussGroup::add_forces(Portion portion, const ExplicitCycle& cyc
       const Pulled pulled = pull(batch, first, slot, cycle, history);
       const Pack length = load(length_.data() + first + slot);
       const Vector3<Pack> force = truss_force(axis[slot / pack_size], pulled.stress, Pack(area_ / length));
-      scatter_subtract(Vector3<Pack>() - force, scatter_.data() + 2 * (first + slot), 2, cycle.force);
-      scatter_subtract(force, scatter_.data() + 2 * (first + slot) + 1, 2, cycle.force);
+      scatter_subtract(Vector3<Pack>() - force, scatter_.data() + 2 * (first + slot), 2, cycle.forces.force);
+      scatter_subtract(force, scatter_.data() + 2 * (first + slot) + 1, 2, cycle.forces.force);
       if (any_of(pulled.increment < Pack(stable.increment)))
         for (int lane = 0; lane < pack_size; ++lane)
           if (pulled.increment[lane] < stable.increment) stable = {pulled.increment[lane], first + slot + lane};

@@ -21,11 +21,11 @@ double TrussGroup::strain_at(std::int32_t element, const double* position) const
   return truss_strain(truss_axis(nodes(element), position), 1.0 / (length * length));
 }
 
-bool TrussGroup::linearize(std::int32_t element, const double* position, std::span<const double> old_history,
+bool TrussGroup::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                            std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const {
   using Scalar = Dual<3>;
   const double length = reference_length(element);
-  const Vector3<double> axis_value = truss_axis(nodes(element), position);
+  const Vector3<double> axis_value = truss_axis(nodes(element), motion.position);
   Vector3<Scalar> axis;
   for (int c = 0; c < 3; ++c) axis[c] = Scalar(axis_value[c], c);
   const Scalar strain = truss_strain(axis, 1.0 / (length * length));
@@ -51,8 +51,8 @@ bool TrussGroup::linearize(std::int32_t element, const double* position, std::sp
   return true;
 }
 
-ElementEnergies TrussGroup::energies(std::int32_t element, const double* position, std::span<const double> history) const {
-  const std::array<double, 1> strain{strain_at(element, position)};
+ElementEnergies TrussGroup::energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const {
+  const std::array<double, 1> strain{strain_at(element, motion.position)};
   ElementEnergies result;
   result.strain =
       area_ * reference_length(element) * law_->energy_density(strain, history.first(law_->history_size()));
@@ -65,9 +65,9 @@ int TrussGroup::point_components(std::string_view variable) const {
   return variable == "MISES" || variable == "SENER" ? 1 : 0;
 }
 
-void TrussGroup::point_output(std::string_view variable, std::int32_t element, int, const double* position,
+void TrussGroup::point_output(std::string_view variable, std::int32_t element, int, const NodalMotion& motion,
                               std::span<const double> history, std::span<double> values) const {
-  const std::array<double, 1> strain{strain_at(element, position)};
+  const std::array<double, 1> strain{strain_at(element, motion.position)};
   const double square = 1.0 + 2.0 * strain[0], area_ratio = law_->transverse_stretch(strain);
   if (variable == "LE") {
     const double transverse = 0.5 * std::log(area_ratio);

@@ -23,17 +23,17 @@ class Group : public ElementGroup {
   void initialize_history(std::span<double> history) const override { std::fill(history.begin(), history.end(), 0.0); }
   void lumped_mass(std::int32_t, std::span<double> mass) const override { std::fill(mass.begin(), mass.end(), 1.0); }
   StableIncrement add_forces(Portion, const ExplicitCycle&, std::span<double>) const override { return {}; }
-  bool linearize(std::int32_t, const double*, std::span<const double>, std::span<double>, std::span<double>,
+  bool linearize(std::int32_t, const NodalMotion&, std::span<const double>, std::span<double>, std::span<double>,
                  std::span<double>) const override {
     return true;
   }
-  ElementEnergies energies(std::int32_t, const double*, std::span<const double>) const override { return {}; }
+  ElementEnergies energies(std::int32_t, const NodalMotion&, std::span<const double>) const override { return {}; }
   int point_components(std::string_view variable) const override {
     if (variable == "S") return 6;
     return variable == "STH" && history_size_ == 1 ? 1 : 0;
   }
   /// S: first history value + 10 x point + component.
-  void point_output(std::string_view variable, std::int32_t, int point, const double*, std::span<const double> history,
+  void point_output(std::string_view variable, std::int32_t, int point, const NodalMotion&, std::span<const double> history,
                     std::span<double> values) const override {
     for (std::size_t c = 0; c < values.size(); ++c) {
       values[c] = history[0] + (variable == "S" ? 10.0 * point + static_cast<double>(c) : 0.25);

@@ -59,7 +59,7 @@ TEST(Lamination, CompositeMembraneStretchesAsThePliesSay) {
     const double strain = 1e-5;
     sheet.position = sheet.positions([&](const Point& x) { return Point{(1.0 + strain) * x[0], x[1], x[2]}; });
     std::array<double, 6> stress{};
-    sheet.group->output("S", 0, 0, sheet.position.data(), sheet.initial_history(), stress);
+    sheet.group->output("S", 0, 0, {sheet.position.data()}, sheet.initial_history(), stress);
     EXPECT_NEAR(stress[0] / strain, 2343.195, 0.1);  // second order in the strain
     EXPECT_NEAR(stress[1] / strain, 313.334, 0.02);
   }

@@ -82,19 +82,19 @@ struct Sheet {
   Eigen::VectorXd force(std::int32_t element = 0) const {
     const auto old = initial_history();
     std::vector<double> now(old.size()), f(dofs());
-    if (!group->linearize(element, position.data(), old, now, f, {})) throw std::runtime_error("inverted");
+    if (!group->linearize(element, {position.data()}, old, now, f, {})) throw std::runtime_error("inverted");
     return Eigen::Map<Eigen::VectorXd>(f.data(), dofs());
   }
 
   Eigen::MatrixXd stiffness(std::int32_t element = 0) const {
     const auto old = initial_history();
     std::vector<double> now(old.size()), f(dofs()), k(static_cast<std::size_t>(dofs() * dofs()));
-    if (!group->linearize(element, position.data(), old, now, f, k)) throw std::runtime_error("inverted");
+    if (!group->linearize(element, {position.data()}, old, now, f, k)) throw std::runtime_error("inverted");
     return Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(k.data(), dofs(), dofs());
   }
 
   ElementEnergies energies(std::int32_t element = 0) const {
-    return group->energies(element, position.data(), initial_history());
+    return group->energies(element, {position.data()}, initial_history());
   }
 
   /// 2 / omega_max of one free element with lumped masses, from its exact tangent.
@@ -112,8 +112,8 @@ struct Sheet {
   std::vector<double> explicit_forces(ExplicitCycle cycle, StableIncrement* stable = nullptr, double largest = 1e6) {
     std::vector<double> force(position.size(), 0.0);
     for (std::size_t n = 0; n < force.size() / 4; ++n) force[4 * n + 3] = rounding_constant(largest);
-    cycle.position = position.data();
-    cycle.force = force.data();
+    cycle.motion.position = position.data();
+    cycle.forces.force = force.data();
     StableIncrement found = group->add_forces(Portion::interface, cycle, history);
     found.merge(group->add_forces(Portion::interior, cycle, history));
     if (stable != nullptr) *stable = found;

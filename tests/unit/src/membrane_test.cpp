@@ -50,10 +50,10 @@ TEST_P(Membrane, PatchHasTheSameStressInEveryElement) {
   sheet.build();
   sheet.position = sheet.positions(affine);
   std::array<double, 6> first{}, other{};
-  sheet.group->output("S", 0, 0, sheet.position.data(), sheet.initial_history(), first);
+  sheet.group->output("S", 0, 0, {sheet.position.data()}, sheet.initial_history(), first);
   for (std::int32_t e = 0; e < sheet.group->size(); ++e)
     for (int q = 0; q < sheet.group->integration_points(); ++q) {
-      sheet.group->output("S", e, q, sheet.position.data(), sheet.initial_history(), other);
+      sheet.group->output("S", e, q, {sheet.position.data()}, sheet.initial_history(), other);
       for (int c = 0; c < 6; ++c) EXPECT_NEAR(other[c], first[c], 1e-12 * std::fabs(first[0]));
     }
 }
@@ -146,8 +146,8 @@ TEST(MembraneHourglass, BendsAsBeamTheory) {
   const double energy = 0.5 * young * thickness * b * b * b / (12.0 * a) * angle * angle;
   EXPECT_NEAR(sheet.energies().hourglass, energy, 1e-5 * energy);  // second order in the angle
   std::array<double, 1> artificial{}, elastic{};
-  sheet.group->output("ELASE", 0, 0, sheet.position.data(), sheet.initial_history(), artificial);
-  sheet.group->output("ELSE", 0, 0, sheet.position.data(), sheet.initial_history(), elastic);
+  sheet.group->output("ELASE", 0, 0, {sheet.position.data()}, sheet.initial_history(), artificial);
+  sheet.group->output("ELSE", 0, 0, {sheet.position.data()}, sheet.initial_history(), elastic);
   EXPECT_NEAR(artificial[0], energy, 1e-5 * energy);
   EXPECT_LT(elastic[0], 1e-5 * energy);
   EXPECT_LT(sheet.energies().strain, 1e-5 * energy);
@@ -212,10 +212,10 @@ TEST_P(Membrane, OutputsCauchyStressAndLogarithmicStrain) {
   const auto history = sheet.initial_history();
   std::array<double, 6> s{}, le{};
   std::array<double, 1> thickness{}, mises{};
-  sheet.group->output("S", 0, 0, sheet.position.data(), history, s);
-  sheet.group->output("LE", 0, 0, sheet.position.data(), history, le);
-  sheet.group->output("STH", 0, 0, sheet.position.data(), history, thickness);
-  sheet.group->output("MISES", 0, 0, sheet.position.data(), history, mises);
+  sheet.group->output("S", 0, 0, {sheet.position.data()}, history, s);
+  sheet.group->output("LE", 0, 0, {sheet.position.data()}, history, le);
+  sheet.group->output("STH", 0, 0, {sheet.position.data()}, history, thickness);
+  sheet.group->output("MISES", 0, 0, {sheet.position.data()}, history, mises);
   const double expected = 2.0 * 10.0 * (stretch * stretch - 1.0 / stretch);
   EXPECT_NEAR(s[0], expected, 1e-4);
   EXPECT_NEAR(s[1], 0.0, 1e-4);
@@ -235,7 +235,7 @@ TEST_P(Membrane, LocalDirectionsFollowTheOrientation) {
     sheet.build();
     std::array<double, 6> s{};
     sheet.position = sheet.positions([](const Point& x) { return Point{x[0] * 1.001, x[1], x[2]}; });
-    sheet.group->output("S", 0, 0, sheet.position.data(), sheet.initial_history(), s);
+    sheet.group->output("S", 0, 0, {sheet.position.data()}, sheet.initial_history(), s);
     return std::max(s[0], s[1]);
   };
   Sheet by_default = rectangle(GetParam(), 2.0, 1.0);
@@ -261,7 +261,7 @@ TEST_P(Membrane, LocalDirectionsFollowTheOrientation) {
   standing.build();
   standing.position = standing.positions([](const Point& x) { return Point{x[0], x[1], 1.001 * x[2]}; });
   std::array<double, 6> s{};
-  standing.group->output("S", 0, 0, standing.position.data(), standing.initial_history(), s);
+  standing.group->output("S", 0, 0, {standing.position.data()}, standing.initial_history(), s);
   EXPECT_NEAR(s[0], 0.300, 1e-3);
 }
 

@@ -79,9 +79,9 @@ TEST_P(SolidElement, PassesThePatchTest) {
   }
   EXPECT_EQ(inside, 8);
   std::vector<double> first(6), other(6);
-  c.group->output("S", 0, 0, c.position.data(), c.element_history(0), first);
+  c.group->output("S", 0, 0, {c.position.data()}, c.element_history(0), first);
   for (int e = 1; e < c.group->size(); ++e) {
-    c.group->output("S", e, 0, c.position.data(), c.element_history(e), other);
+    c.group->output("S", e, 0, {c.position.data()}, c.element_history(e), other);
     for (int i = 0; i < 6; ++i) EXPECT_NEAR(other[i], first[i], 1e-11 * std::abs(first[0]));
   }
 }
@@ -94,7 +94,7 @@ TEST_P(SolidElement, RigidRotationIsFreeOfForce) {
   c.move(affine(rotation(2.0, {1.0, -2.0, 0.5}), {3.0, -1.0, 2.0}));
   c.linearize(0, f, k);
   EXPECT_LT(f.cwiseAbs().maxCoeff(), 1e-14 * k.cwiseAbs().maxCoeff());
-  EXPECT_NEAR(c.group->energies(0, c.position.data(), c.element_history(0)).hourglass, 0.0,
+  EXPECT_NEAR(c.group->energies(0, {c.position.data()}, c.element_history(0)).hourglass, 0.0,
               1e-14 * k.cwiseAbs().maxCoeff());
 }
 
@@ -171,7 +171,7 @@ TEST_P(SolidElement, ForceIsTheGradientOfTheEnergy) {
   const auto energy = [&] {
     double sum = 0.0;
     for (int e = 0; e < c.group->size(); ++e) {
-      const ElementEnergies energies = c.group->energies(e, c.position.data(), c.element_history(e));
+      const ElementEnergies energies = c.group->energies(e, {c.position.data()}, c.element_history(e));
       sum += energies.strain + energies.hourglass;
     }
     return sum;
@@ -205,7 +205,7 @@ TEST_P(SolidElement, PackForcesEqualScalarForces) {
     one.position = c.position;
     const std::vector<double> history = one.element_history(0);
     std::vector<double> updated(history), force(3 * one.group->nodes_per_element());
-    ASSERT_TRUE(one.group->linearize(0, one.position.data(), history, updated, force, {}));
+    ASSERT_TRUE(one.group->linearize(0, {one.position.data()}, history, updated, force, {}));
     one.explicit_cycle();
     for (int i = 0; i < one.group->nodes_per_element(); ++i) {
       for (int d = 0; d < 3; ++d) {

@@ -83,7 +83,7 @@ TEST_P(ExplicitSolid, DissipationIsTheWorkOfTheViscousForces) {
     for (int i = 0; i < c.dofs(); ++i)
       work -= (c.force[4 * (i / 3) + i % 3] + f(i)) * c.velocity[4 * (i / 3) + i % 3] * increment;
     for (int e = 0; e < c.group->size(); ++e)
-      dissipated += c.group->energies(e, c.position.data(), c.element_history(e)).viscous;
+      dissipated += c.group->energies(e, {c.position.data()}, c.element_history(e)).viscous;
     EXPECT_GT(work, 0.0);
     EXPECT_NEAR(dissipated, work, 2e-4 * work)
         << "beta = " << beta;  // rate from the volumes at both ends: error of order dt |grad v|
@@ -102,7 +102,7 @@ TEST_P(ExplicitSolid, RigidRotationDissipatesNothing) {
     std::copy(v.data(), v.data() + 3, &c.velocity[4 * i]);
   }
   c.explicit_cycle(1e-3, 0.06, 1.2);
-  EXPECT_NEAR(c.group->energies(0, c.position.data(), c.element_history(0)).viscous, 0.0, 1e-15);
+  EXPECT_NEAR(c.group->energies(0, {c.position.data()}, c.element_history(0)).viscous, 0.0, 1e-15);
   for (int i = 0; i < c.dofs(); ++i) EXPECT_NEAR(c.force[4 * (i / 3) + i % 3], 0.0, 1e-13);
 }
 
@@ -190,7 +190,7 @@ TEST(SolidOrientation, StiffnessTurnsWithIt) {
     position[4 * i + 1] *= 1.0 + strain;
     position[4 * i + 2] *= 1.0 + contraction_z;
   }
-  group->output("S", 0, 0, position.data(), history, stress);
+  group->output("S", 0, 0, {position.data()}, history, stress);
   EXPECT_NEAR(stress[1], 100.0 * strain, 1e-5 * 100.0 * strain);
   EXPECT_NEAR(stress[0], 0.0, 1e-5 * 100.0 * strain);
   EXPECT_NEAR(stress[2], 0.0, 1e-5 * 100.0 * strain);
@@ -204,20 +204,20 @@ TEST(SolidOutput, TensorsAndInvariants) {
   const Eigen::Matrix3d expected =
       q * Eigen::Vector3d(std::log(1.5), std::log(0.9), std::log(0.8)).asDiagonal() * q.transpose();
   std::vector<double> le(6), s(6), mises(1), press(1), sener(1);
-  c.group->output("LE", 0, 0, c.position.data(), c.element_history(0), le);
+  c.group->output("LE", 0, 0, {c.position.data()}, c.element_history(0), le);
   const double components[6] = {expected(0, 0),     expected(1, 1),     expected(2, 2),
                                 2 * expected(0, 1), 2 * expected(0, 2), 2 * expected(1, 2)};
   for (int i = 0; i < 6; ++i) EXPECT_NEAR(le[i], components[i], 1e-14);
-  c.group->output("S", 0, 0, c.position.data(), c.element_history(0), s);
-  c.group->output("MISES", 0, 0, c.position.data(), c.element_history(0), mises);
-  c.group->output("PRESS", 0, 0, c.position.data(), c.element_history(0), press);
-  c.group->output("SENER", 0, 0, c.position.data(), c.element_history(0), sener);
+  c.group->output("S", 0, 0, {c.position.data()}, c.element_history(0), s);
+  c.group->output("MISES", 0, 0, {c.position.data()}, c.element_history(0), mises);
+  c.group->output("PRESS", 0, 0, {c.position.data()}, c.element_history(0), press);
+  c.group->output("SENER", 0, 0, {c.position.data()}, c.element_history(0), sener);
   EXPECT_NEAR(press[0], -(s[0] + s[1] + s[2]) / 3.0, 1e-13);
   const double by_hand =
       std::sqrt(0.5 * (std::pow(s[0] - s[1], 2) + std::pow(s[1] - s[2], 2) + std::pow(s[2] - s[0], 2)) +
                 3.0 * (s[3] * s[3] + s[4] * s[4] + s[5] * s[5]));
   EXPECT_NEAR(mises[0], by_hand, 1e-12);
-  EXPECT_NEAR(sener[0], c.group->energies(0, c.position.data(), c.element_history(0)).strain, 1e-13);
+  EXPECT_NEAR(sener[0], c.group->energies(0, {c.position.data()}, c.element_history(0)).strain, 1e-13);
   EXPECT_EQ(c.group->output_components("PEEQ"), 0);
 }
 

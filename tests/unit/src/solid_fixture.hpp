@@ -44,7 +44,7 @@ struct SolidCase {
   /// Runs one explicit force evaluation; `force` then holds minus the internal force.
   StableIncrement explicit_cycle(double increment = 0.0, double b1 = 0.0, double b2 = 0.0, double constant = 0.0) {
     for (std::size_t i = 0; i < force.size(); ++i) force[i] = i % 4 == 3 ? constant : 0.0;
-    ExplicitCycle cycle{position.data(), velocity.data(), force.data(), increment, b1, b2};
+    ExplicitCycle cycle{{position.data(), velocity.data()}, {force.data()}, increment, b1, b2};
     StableIncrement smallest = group->add_forces(Portion::interface, cycle, history);
     smallest.merge(group->add_forces(Portion::interior, cycle, history));
     return smallest;
@@ -61,7 +61,7 @@ struct SolidCase {
     const int n = 3 * group->nodes_per_element();
     const std::vector<double> old_history = element_history(element);
     std::vector<double> new_history(old_history), forces(n), stiffness(n * n);
-    const bool valid = group->linearize(element, position.data(), old_history, new_history, forces, stiffness);
+    const bool valid = group->linearize(element, {position.data()}, old_history, new_history, forces, stiffness);
     f = Eigen::Map<Eigen::VectorXd>(forces.data(), n);
     k = Eigen::Map<Eigen::Matrix<double, -1, -1, Eigen::RowMajor>>(stiffness.data(), n, n);
     return valid;

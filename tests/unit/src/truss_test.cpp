@@ -47,7 +47,7 @@ TEST(Truss, ForceIsTheAxialForceAndRotationsAreFree) {
   EXPECT_NEAR(f.tail<3>().norm(), axial, 1e-12 * axial);
   EXPECT_NEAR((f.head<3>() + f.tail<3>()).norm(), 0.0, 1e-13 * axial);
   std::array<double, 6> stress{};
-  sheet.group->output("S", 0, 0, sheet.position.data(), sheet.initial_history(), stress);
+  sheet.group->output("S", 0, 0, {sheet.position.data()}, sheet.initial_history(), stress);
   EXPECT_GT(stress[0], 0.0);
   sheet.position = sheet.positions([&](const Point& x) { return Point{x[2], x[0], x[1]}; });
   EXPECT_LT(sheet.force().norm(), 1e-12);
