@@ -133,3 +133,22 @@ def ring(session, kind, n):
     mesh.add("*DLOAD\nALL, CENTRIF, %.17g, 0., 0., 0., 0., 0., 1.\n" % 48.0**2 + FIELDS + "*END STEP")
     results = session.run("ring_%s_%d" % (kind, n), mesh)
     return {"radial growth, mm": 1000.0 * middle(mesh, results, 0.0, None)[1]}
+
+
+@problem("PRONY", "block sheared at once, then held: g1 0.3, tau 0.1, explicit", "tau / G gamma = 1 - g1 (1 - exp(-t / tau))",
+         {"after tau": (1.0 - 0.3 * (1.0 - math.exp(-1.0)), 5e-3), "after 5 tau": (1.0 - 0.3 * (1.0 - math.exp(-5.0)), 5e-3)},
+         {kind: (1,) for kind in ("C3D8", "C3D8R")}, lambda n: "1")
+def relaxation(session, kind, n):
+    """The strain grows within 2e-3; times count from the middle of that."""
+    mesh = block(kind, (1, 1, 1), lambda r, s, t: (r, s, t))
+    mesh.section(1.0, elastic(1e6, 0.25, 1000.0) + "\n*VISCOELASTIC, TIME=PRONY\n0.3, 0., 0.1")
+    shear = 1e-4
+    mesh.add("*AMPLITUDE, NAME=ONCE, DEFINITION=SMOOTH STEP\n0., 0., 0.002, 1., 1., 1.\n*STEP\n*DYNAMIC, EXPLICIT\n, 0.501\n*BOUNDARY")
+    mesh.add(mesh.hold(mesh.at(t=0.0), (1, 2, 3)) + mesh.hold(mesh.at(t=1.0), (2, 3)))
+    mesh.add("*BOUNDARY, AMPLITUDE=ONCE\n" + "".join("%d, 1, 1, %g\n" % (m, shear) for m in mesh.at(t=1.0)))
+    mesh.add("*OUTPUT, FIELD, TIME INTERVAL=0.1002, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS\n*END STEP")
+    results = session.run("prony_%s" % kind, mesh)
+    modulus = 1e6 / 2.5
+    stress = [(frame.attrs["time"] - 1e-3, frame["element/%s/S" % kind][0, 4] / (modulus * shear)) for frame in results.frames(1)]
+    times, ratios = zip(*stress)
+    return {"after tau": np.interp(0.1, times, ratios), "after 5 tau": np.interp(0.5, times, ratios)}

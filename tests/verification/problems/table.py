@@ -7,6 +7,7 @@ import argparse
 import sys
 
 import bars  # noqa: F401
+import contact  # noqa: F401
 import dynamics  # noqa: F401
 import elements
 import frequencies  # noqa: F401
