@@ -63,6 +63,32 @@ std::vector<double> vectors_of(const std::vector<double>& nodal, const std::vect
   return values;
 }
 
+/// What nodes that turn have beside positions and velocities: orientation 4, angular velocity 3, rotation 3.
+constexpr int rotation_values = 10;
+
+std::vector<double> rotations_of(const State& state, const std::vector<std::int32_t>& nodes) {
+  std::vector<double> values(nodes.size() * rotation_values, 0.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(nodes[i]) * 4;
+    if (at >= std::ssize(state.orientation)) continue;
+    auto next = std::copy_n(state.orientation.begin() + at, 4, values.begin() + i * rotation_values);
+    next = std::copy_n(state.angular_velocity.begin() + at, 3, next);
+    std::copy_n(state.rotation.begin() + at, 3, next);
+  }
+  return values;
+}
+
+void set_rotations(const std::vector<std::int32_t>& nodes, std::span<const double> values, State& state) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(nodes[i]) * 4;
+    if (at >= std::ssize(state.orientation)) continue;
+    const double* const own = values.data() + i * rotation_values;
+    std::copy_n(own, 4, state.orientation.begin() + at);
+    std::copy_n(own + 4, 3, state.angular_velocity.begin() + at);
+    std::copy_n(own + 7, 3, state.rotation.begin() + at);
+  }
+}
+
 /// History of the elements held in a table, `columns` an element (shorter histories end in zeros).
 std::vector<double> histories_of(const TableRows& rows, const State& state, int columns) {
   std::vector<double> values(rows.exchange.held() * columns, 0.0);
@@ -109,7 +135,7 @@ std::string history_path(const Model& model, const TableRows& rows) {
 
 /// Upper bound of the size of a checkpoint.
 std::size_t checkpoint_bytes(const Model& model, const Communicator& communicator, ElementGroups groups) {
-  std::size_t values = static_cast<std::size_t>(model.nodes.size()) * (6 + work_values);
+  std::size_t values = static_cast<std::size_t>(model.nodes.size()) * (6 + work_values + rotation_values);
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
     values += static_cast<std::size_t>(rows.exchange.total()) * history_columns(rows, communicator);
   }
@@ -126,6 +152,8 @@ void write_tables(ParallelFile& file, const Model& model, const Communicator& co
   };
   write("position", nodes.exchange, vectors_of(state.position, nodes.nodes), 3);
   write("velocity", nodes.exchange, vectors_of(state.velocity, nodes.nodes), 3);
+  if (communicator.any(domain.turning > 0))
+    write("rotation", nodes.exchange, rotations_of(state, nodes.nodes), rotation_values);
   std::vector<double> work(nodes.nodes.size() * work_values, 0.0);
   for (std::size_t i = 0; i < nodes.nodes.size() && !state.nodal_work.empty(); ++i) {
     const NodalWork& done = state.nodal_work[nodes.nodes[i]];
@@ -233,6 +261,7 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
   const auto count = static_cast<std::size_t>(domain.size());
   set_vectors(nodes.nodes, read("position", nodes.exchange, 3), count, state.position);
   set_vectors(nodes.nodes, read("velocity", nodes.exchange, 3), count, state.velocity);
+  if (communicator.any(domain.turning > 0)) set_rotations(nodes.nodes, read("rotation", nodes.exchange, rotation_values), state);
   const auto work = read("work", nodes.exchange, work_values);
   state.nodal_work.resize(std::max(state.nodal_work.size(), count));
   for (std::size_t i = 0; i < nodes.nodes.size(); ++i) {

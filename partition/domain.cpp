@@ -7,6 +7,7 @@
 
 #include "element_graph.hpp"
 #include "elements/element_type.hpp"
+#include "elements/turning_nodes.hpp"
 #include "hilbert.hpp"
 #include "model/diagnostics.hpp"
 
@@ -20,6 +21,7 @@ struct Partition {
   std::vector<ElementRef> elements;
   std::vector<std::int32_t> part;  // of each element
   std::vector<bool> reference;     // per model node: reference node of a rigid body
+  std::vector<bool> turns;         // per model node
 
   std::span<const std::int32_t> nodes(std::size_t element) const {
     const auto& table = model.elements[elements[element].table];
@@ -45,8 +47,11 @@ std::vector<std::int32_t> partition_elements(const Graph& graph, const Communica
 }
 
 Partition make_partition(const Model& model, const Communicator& communicator, const Partitioner& partitioner) {
-  Partition partition{
-      model, graph_elements(model), {}, std::vector<bool>(static_cast<std::size_t>(model.nodes.size()))};
+  Partition partition{model,
+                      graph_elements(model),
+                      {},
+                      std::vector<bool>(static_cast<std::size_t>(model.nodes.size())),
+                      turning_nodes(model)};
   if (communicator.size() == 1)
     partition.part.assign(partition.elements.size(), 0);
   else
@@ -66,7 +71,7 @@ std::vector<std::int32_t> node_owners(const Partition& partition) {
   return owner;
 }
 
-/// Fills node_row, local_node and owned: along the Hilbert curve, reference nodes last.
+/// Fills node_row, local_node, owned and turning: nodes that turn first, along the Hilbert curve, reference nodes last.
 void number_nodes(const Partition& partition, int rank, Domain& domain) {
   const auto& nodes = partition.model.nodes;
   const auto owner = node_owners(partition);
@@ -76,7 +81,7 @@ void number_nodes(const Partition& partition, int rank, Domain& domain) {
       for (const std::int32_t node : partition.nodes(e)) present[node] = true;
 
   struct Place {
-    bool reference;
+    bool stays_upright, reference;
     std::uint64_t curve;
     std::int32_t row;
     auto operator<=>(const Place&) const = default;
@@ -85,7 +90,7 @@ void number_nodes(const Partition& partition, int rank, Domain& domain) {
   std::vector<Place> places;
   for (std::int32_t row = 0; row < nodes.size(); ++row)
     if (present[row] || owner[row] == rank)
-      places.push_back({partition.reference[row], hilbert_index(nodes.coordinates[row], box), row});
+      places.push_back({!partition.turns[row], partition.reference[row], hilbert_index(nodes.coordinates[row], box), row});
   std::sort(places.begin(), places.end());
 
   domain.local_node.assign(static_cast<std::size_t>(nodes.size()), -1);
@@ -93,6 +98,7 @@ void number_nodes(const Partition& partition, int rank, Domain& domain) {
     domain.local_node[place.row] = domain.size();
     domain.node_row.push_back(place.row);
     domain.owned.push_back(owner[place.row] == rank);
+    if (!place.stays_upright) ++domain.turning;
   }
 }
 
@@ -182,7 +188,7 @@ Domain make_domain(const Model& model, const Communicator& communicator, const P
   number_nodes(partition, communicator.rank(), domain);
   auto neighbours = shared_nodes(partition, communicator, domain);
   make_groups(partition, communicator.rank(), neighbours, domain);
-  domain.halo = std::make_unique<Halo>(communicator, std::move(neighbours));
+  domain.halo = std::make_unique<Halo>(communicator, std::move(neighbours), domain.turning, Halo::Tag::internal);
   return domain;
 }
 

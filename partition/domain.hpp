@@ -26,11 +26,12 @@ using Partitioner = std::function<std::vector<std::int32_t>(const Graph&, int pa
 std::vector<std::int32_t> metis_partition(const Graph& graph, int parts);
 
 /// Local nodes: those of the rank's elements, and the reference node of every rigid body (on every rank). They are numbered for
-/// locality; elements are sorted to follow.
+/// locality, those that turn first; elements are sorted to follow.
 struct Domain {
   std::vector<std::int32_t> node_row;   // local node -> model row
   std::vector<std::int32_t> local_node;  // model row -> local node, -1: not on this rank
   std::vector<bool> owned;              // per local node: exactly one copy of each node is owned
+  std::int32_t turning = 0;             // local nodes [0, turning) rotate (elements/turning_nodes.hpp)
   std::vector<GroupInput> groups;       // elements of this rank by table and section, in table order (no MASS, ROTARYI)
   std::unique_ptr<Halo> halo;
 

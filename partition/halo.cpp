@@ -5,22 +5,39 @@
 namespace balocco {
 
 namespace {
-constexpr int halo_tag = 4711;
+
 constexpr std::size_t components = 3;
+
+double* pack(const std::vector<std::int32_t>& nodes, const double* values, double* out) {
+  for (const std::int32_t node : nodes)
+    for (std::size_t c = 0; c < components; ++c) *out++ = values[4 * static_cast<std::size_t>(node) + c];
+  return out;
+}
+
+const double* add(const std::vector<std::int32_t>& nodes, const double* in, double* values) {
+  for (const std::int32_t node : nodes)
+    for (std::size_t c = 0; c < components; ++c) values[4 * static_cast<std::size_t>(node) + c] += *in++;
+  return in;
+}
+
 }  // namespace
 
-Halo::Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours) : neighbours_(std::move(neighbours)) {
+Halo::Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours, std::int32_t turning, Tag tag)
+    : neighbours_(std::move(neighbours)) {
   const std::size_t count = neighbours_.size();
+  turning_.resize(count);
   outgoing_.resize(count);
   incoming_.resize(count);
   requests_.resize(2 * count, MPI_REQUEST_NULL);
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t length = components * neighbours_[i].nodes.size();
+    for (const auto node : neighbours_[i].nodes)
+      if (node < turning) turning_[i].push_back(node);
+    const std::size_t length = components * (neighbours_[i].nodes.size() + turning_[i].size());
     outgoing_[i].resize(length);
     incoming_[i].resize(length);
-    MPI_Recv_init(incoming_[i].data(), static_cast<int>(length), MPI_DOUBLE, neighbours_[i].rank, halo_tag,
+    MPI_Recv_init(incoming_[i].data(), static_cast<int>(length), MPI_DOUBLE, neighbours_[i].rank, static_cast<int>(tag),
                   communicator.handle(), &requests_[i]);
-    MPI_Send_init(outgoing_[i].data(), static_cast<int>(length), MPI_DOUBLE, neighbours_[i].rank, halo_tag,
+    MPI_Send_init(outgoing_[i].data(), static_cast<int>(length), MPI_DOUBLE, neighbours_[i].rank, static_cast<int>(tag),
                   communicator.handle(), &requests_[count + i]);
   }
 }
@@ -29,21 +46,19 @@ Halo::~Halo() {
   for (auto& request : requests_) MPI_Request_free(&request);
 }
 
-void Halo::begin_sum(const double* values) {
+void Halo::begin_sum(const double* forces, const double* moments) {
   for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-    double* out = outgoing_[i].data();
-    for (const std::int32_t node : neighbours_[i].nodes)
-      for (std::size_t c = 0; c < components; ++c) *out++ = values[4 * static_cast<std::size_t>(node) + c];
+    double* const behind = pack(neighbours_[i].nodes, forces, outgoing_[i].data());
+    if (moments != nullptr) pack(turning_[i], moments, behind);
   }
   if (!requests_.empty()) MPI_Startall(static_cast<int>(requests_.size()), requests_.data());
 }
 
-void Halo::finish_sum(double* values) {
+void Halo::finish_sum(double* forces, double* moments) {
   if (!requests_.empty()) MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-    const double* in = incoming_[i].data();
-    for (const std::int32_t node : neighbours_[i].nodes)
-      for (std::size_t c = 0; c < components; ++c) values[4 * static_cast<std::size_t>(node) + c] += *in++;
+    const double* const behind = add(neighbours_[i].nodes, incoming_[i].data(), forces);
+    if (moments != nullptr) add(turning_[i], behind, moments);
   }
 }
 

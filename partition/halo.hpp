@@ -16,12 +16,15 @@ struct SharedNodes {
   std::vector<std::int32_t> nodes;
 };
 
-/// Sums of nodal vectors (4 doubles a node, of which the first 3 travel) over the copies of shared nodes. Addends must be rounded
-/// with the node's rounding constant, so that the sum is exact and every copy holds the same bits. Requests are persistent:
-/// a cycle allocates nothing.
+/// Sums of nodal vectors (4 doubles a node, of which the first 3 travel) over the copies of shared nodes: one vector of every node
+/// and a second one of nodes that turn, in one message per neighbour. Addends must be rounded with the node's rounding constant, so
+/// that the sum is exact and every copy holds the same bits. Requests are persistent: a cycle allocates nothing.
 class Halo {
  public:
-  Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours);
+  /// Exchanges that may be under way at the same time have tags of their own.
+  enum class Tag : int { internal = 4711, external };
+  /// Local nodes [0, turning) have the second vector.
+  Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours, std::int32_t turning, Tag tag);
   ~Halo();
   Halo(const Halo&) = delete;
   Halo& operator=(const Halo&) = delete;
@@ -30,12 +33,14 @@ class Halo {
 
   /// Packs the partial sums of shared nodes and starts the messages. Later additions by this rank to shared nodes must be
   /// made alike on every copy.
-  void begin_sum(const double* values);
+  /// `moments` may be null where it is null in finish_sum too.
+  void begin_sum(const double* forces, const double* moments = nullptr);
   /// Waits and adds what the neighbours sent.
-  void finish_sum(double* values);
+  void finish_sum(double* forces, double* moments = nullptr);
 
  private:
   std::vector<SharedNodes> neighbours_;
+  std::vector<std::vector<std::int32_t>> turning_;  // those of each neighbour's nodes that turn
   std::vector<std::vector<double>> outgoing_, incoming_;
   std::vector<MPI_Request> requests_;  // receives, then sends
 };

@@ -59,11 +59,16 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
         faces = std::make_unique<PressureFaces>(model, model.surfaces[load.surface], domain.local_node, local,
                                                 domain.scratch_node());
   sum_masses();
+  sum_rotary_inertia();
 
   const std::size_t size = 4 * (domain.size() + 1);
   for (auto* array : {&current.position, &current.velocity, &acceleration, &reaction}) array->assign(size, 0.0);
   for (std::int32_t node = 0; node < domain.size(); ++node)
     std::copy_n(model.nodes.coordinates[domain.node_row[node]].data(), 3, &current.position[4 * node]);
+  const std::size_t turning = 4 * static_cast<std::size_t>(domain.turning);
+  for (auto* array : {&current.orientation, &current.angular_velocity, &current.rotation, &angular_acceleration, &reaction_moment})
+    array->assign(turning, 0.0);
+  for (std::size_t i = 0; i < turning; i += 4) current.orientation[i] = 1.0;
   current.nodal_work.resize(domain.size());
   work_ahead.resize(domain.size());
   for (const auto& group : element_groups) current.element_history.push_back(group->initial_history());
@@ -107,6 +112,47 @@ void Analysis::sum_masses() {
     nodal_damping[node] = sums[4 * node + 1];
   }
   for_each_point_mass(model, domain, [&](std::int32_t node, double mass, ElementRef) { nodal_mass[node] += mass; });
+}
+
+void Analysis::sum_rotary_inertia() {
+  double largest = 0.0;
+  std::vector<double> share;
+  const auto for_each_share = [&](auto visit) {
+    for (const auto& group : element_groups) {
+      if (group->freedoms_per_node() == 3) continue;
+      share.resize(group->nodes_per_element());
+      const auto material = model.sections[group->section()].material;
+      const double alpha = material >= 0 ? model.materials[material].damping_alpha : 0.0;
+      for (std::int32_t e = 0; e < group->size(); ++e) {
+        group->lumped_rotary_inertia(e, share);
+        for (std::size_t i = 0; i < share.size(); ++i) visit(group->nodes(e)[i], share[i], alpha);
+      }
+    }
+  };
+  for_each_share([&](std::int32_t, double inertia, double alpha) { largest = std::max({largest, inertia, alpha * inertia}); });
+  const double constant = rounding_constant(64.0 * communicator.maximum(largest));
+  std::vector<double> sums(4 * (domain.size() + 1), 0.0);
+  for_each_share([&](std::int32_t node, double inertia, double alpha) {
+    sums[4 * node] += rounded(inertia, constant);
+    sums[4 * node + 1] += rounded(alpha * inertia, constant);
+  });
+  domain.halo->begin_sum(sums.data());
+  domain.halo->finish_sum(sums.data());
+  for (std::int32_t node = 0; node < domain.turning; ++node) {
+    rotary_inertia.push_back(sums[4 * node]);
+    rotary_damping.push_back(sums[4 * node + 1]);
+  }
+  for (const auto& table : model.elements) {
+    if (table.type->section != Section::Kind::rotary_inertia) continue;
+    for (std::int32_t row = 0; row < table.size(); ++row) {
+      const auto node = domain.local_node[table.connectivity[row]];
+      if (node < 0 || node >= domain.turning) continue;
+      const auto& given = model.sections[table.section[row]].inertia;
+      rotary_tensors.push_back({node,
+                                table.section[row],
+                                {{given[0], given[3], given[4], given[3], given[1], given[5], given[4], given[5], given[2]}}});
+    }
+  }
 }
 
 const std::vector<double>& Analysis::partial_mass(std::int32_t element_set) const {
@@ -171,11 +217,16 @@ void Analysis::apply_attachments(const Step& step) {
 void Analysis::index_rigid_nodes() {
   carrier_.assign(domain.size(), -1);
   reference_of_.assign(domain.size(), -1);
+  turning_body_.assign(domain.size(), -1);
   for (std::size_t body = 0; body < current.rigid_bodies.size(); ++body) {
     const auto reference = domain.local_node[model.rigid_bodies[body].reference_node];
-    if (reference >= 0) reference_of_[reference] = static_cast<std::int32_t>(body);
-    for (const auto& carried : current.rigid_bodies[body].nodes)
-      if (const auto node = domain.local_node[carried.node]; node >= 0) carrier_[node] = static_cast<std::int32_t>(body);
+    if (reference >= 0) reference_of_[reference] = turning_body_[reference] = static_cast<std::int32_t>(body);
+    for (const auto& carried : current.rigid_bodies[body].nodes) {
+      const auto node = domain.local_node[carried.node];
+      if (node < 0) continue;
+      carrier_[node] = static_cast<std::int32_t>(body);
+      if (carried.tie) turning_body_[node] = static_cast<std::int32_t>(body);
+    }
   }
 }
 

@@ -31,6 +31,15 @@ class Analysis : public ResultSource {
   std::vector<std::unique_ptr<PressureFaces>> pressure_faces;  // per Model::surfaces, null where no step presses on it
   std::vector<double> nodal_mass;                  // per local node, summed over ranks (order-free), MASS elements included
   std::vector<double> nodal_damping;               // per local node: sum of alpha * mass
+  std::vector<double> rotary_inertia;              // per node that turns: lumped, the same about all axes; of elements with a kernel
+  std::vector<double> rotary_damping;              // per node that turns: sum of alpha * that
+  /// ROTARYI elements on nodes that turn: inertia about the node in the reference configuration, global axes.
+  struct RotaryTensor {
+    std::int32_t node = -1;     // local
+    std::int32_t section = -1;  // row of Model::sections
+    Matrix3<double> tensor{};
+  };
+  std::vector<RotaryTensor> rotary_tensors;
   NodalDirections directions;
   State current;
 
@@ -39,6 +48,8 @@ class Analysis : public ResultSource {
   void start_step(const Step& step);
   /// Body that carries a local node, or -1. Reference nodes are not carried.
   std::int32_t carrier(std::int32_t local_node) const { return carrier_[local_node]; }
+  /// Body that turns a local node: it is tied, or the reference node; or -1.
+  std::int32_t turning_body(std::int32_t local_node) const { return turning_body_[local_node]; }
   /// Body whose reference node is this local node, or -1.
   std::int32_t reference_of(std::int32_t local_node) const { return reference_of_[local_node]; }
   /// Nodal masses of an element set (-1: all elements) on the nodes that this rank owns, zero elsewhere: what gravity acts on.
@@ -52,6 +63,7 @@ class Analysis : public ResultSource {
   /// Accelerations and net nodal forces of the last increment, set by the procedures for output. A, RF = -(external loads + internal).
   std::vector<double> acceleration;    // 4 a node
   std::vector<double> reaction;        // 4 a node: force that constraints exert
+  std::vector<double> angular_acceleration, reaction_moment;  // 4 a node that turns
   std::vector<std::array<double, 6>> body_reaction;      // per rigid body: reaction force and moment at the reference node
   std::vector<Point> body_angular_acceleration;          // per rigid body
   /// Explicit: work that State::nodal_work already counts although it belongs to the first half of the increment to come, as
@@ -69,8 +81,9 @@ class Analysis : public ResultSource {
   void sum_masses();
   void apply_attachments(const Step& step);
   double kinetic_energy_of_rotary_inertia() const;
+  void sum_rotary_inertia();
 
-  std::vector<std::int32_t> carrier_, reference_of_;
+  std::vector<std::int32_t> carrier_, reference_of_, turning_body_;
   double mass_constant_ = 0.0;  // rounds shares of nodal masses
   mutable std::map<std::int32_t, std::vector<double>> partial_mass_;
 };

@@ -5,6 +5,7 @@
 #include "analysis.hpp"
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
+#include "math/rotation.hpp"
 
 namespace balocco {
 
@@ -59,39 +60,61 @@ void reaction(const Analysis& analysis, std::span<double> values) {
   }
 }
 
-/// Fills a field that lives on reference nodes only.
-template <class Value>
-void on_reference_nodes(const Analysis& analysis, std::span<double> values, Value value) {
+/// Fills a field of rotations: of nodes that turn, and of bodies on their reference nodes; zero elsewhere.
+template <class OfNode, class OfBody>
+void rotational(const Analysis& analysis, std::span<double> values, OfNode of_node, OfBody of_body) {
   std::ranges::fill(values, 0.0);
-  for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
-    if (const auto body = analysis.reference_of(node); body >= 0) {
-      const Point vector = value(body);
-      std::ranges::copy(vector, &values[3 * node]);
-    }
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
+    const auto body = analysis.reference_of(node);
+    if (body < 0 && node >= analysis.domain.turning) continue;
+    const Point vector = body >= 0 ? of_body(body) : of_node(node);
+    std::ranges::copy(vector, &values[3 * node]);
+  }
+}
+
+Point entry(const std::vector<double>& nodal, std::int32_t node) {
+  return {nodal[4 * node], nodal[4 * node + 1], nodal[4 * node + 2]};
+}
+
+/// Angular velocity at the present instant: half an increment before the half-step value.
+Point spin_now(const Analysis& analysis, const Point& half_step, const Point& acceleration) {
+  Point now = half_step;
+  for (int i = 0; i < 3; ++i) now[i] -= 0.5 * analysis.current.time_increment * acceleration[i];
+  return now;
+}
+
+Point spin_of_node(const Analysis& analysis, std::int32_t node) {
+  return spin_now(analysis, entry(analysis.current.angular_velocity, node), entry(analysis.angular_acceleration, node));
 }
 
 void rotation(const Analysis& analysis, std::span<double> values) {
-  on_reference_nodes(analysis, values, [&](std::int32_t body) { return analysis.current.rigid_bodies[body].rotation; });
+  rotational(
+      analysis, values, [&](std::int32_t node) { return entry(analysis.current.rotation, node); },
+      [&](std::int32_t body) { return analysis.current.rigid_bodies[body].rotation; });
 }
 
 void angular_velocity(const Analysis& analysis, std::span<double> values) {
-  on_reference_nodes(analysis, values, [&](std::int32_t body) {
-    Point now = analysis.current.rigid_bodies[body].angular_velocity;
-    for (int i = 0; i < 3; ++i)
-      now[i] -= 0.5 * analysis.current.time_increment * analysis.body_angular_acceleration[body][i];
-    return now;
-  });
+  rotational(
+      analysis, values, [&](std::int32_t node) { return spin_of_node(analysis, node); },
+      [&](std::int32_t body) {
+        return spin_now(analysis, analysis.current.rigid_bodies[body].angular_velocity,
+                        analysis.body_angular_acceleration[body]);
+      });
 }
 
 void angular_acceleration(const Analysis& analysis, std::span<double> values) {
-  on_reference_nodes(analysis, values, [&](std::int32_t body) { return analysis.body_angular_acceleration[body]; });
+  rotational(
+      analysis, values, [&](std::int32_t node) { return entry(analysis.angular_acceleration, node); },
+      [&](std::int32_t body) { return analysis.body_angular_acceleration[body]; });
 }
 
 void reaction_moment(const Analysis& analysis, std::span<double> values) {
-  on_reference_nodes(analysis, values, [&](std::int32_t body) -> Point {
-    const auto& six = analysis.body_reaction[body];
-    return {six[3], six[4], six[5]};
-  });
+  rotational(
+      analysis, values, [&](std::int32_t node) { return entry(analysis.reaction_moment, node); },
+      [&](std::int32_t body) -> Point {
+        const auto& six = analysis.body_reaction[body];
+        return {six[3], six[4], six[5]};
+      });
 }
 
 /// A scalar of the contact points; where a node is in several pairs the largest counts.
@@ -214,12 +237,23 @@ EnergyBalance Analysis::energies() const {
     if (!domain.owned[node]) continue;
     const auto v = velocity_now(*this, node);
     sums[kinetic].add(0.5 * nodal_mass[node] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]));
+    if (node < domain.turning) {
+      const auto w = spin_of_node(*this, node);
+      sums[kinetic].add(0.5 * rotary_inertia[node] * (w[0] * w[0] + w[1] * w[1] + w[2] * w[2]));
+    }
     sums[work].add(current.nodal_work[node].external);
     sums[viscous].add(current.nodal_work[node].damping);
     sums[work].add(-work_ahead[node].external);
     sums[viscous].add(-work_ahead[node].damping);
   }
   sums[kinetic].add(kinetic_energy_of_rotary_inertia());
+  for (const auto& given : rotary_tensors) {
+    if (!domain.owned[given.node] || reference_of(given.node) >= 0) continue;
+    const double* const q = &current.orientation[4 * given.node];
+    const Vector3<double> spin{spin_of_node(*this, given.node)};
+    const auto in_reference = transpose(rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]})) * spin;
+    sums[kinetic].add(0.5 * dot(in_reference, given.tensor * in_reference));
+  }
   for_each_contact_point(*this, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint& point) {
     if (!domain.owned[node]) return;
     sums[contact_springs].add(output.spring_energy);

@@ -48,11 +48,12 @@ RigidDynamics::RigidDynamics(const Analysis& analysis, const Step& step) : step_
     const auto row = model.rigid_bodies[i].reference_node;
     body.reference = analysis.domain.local_node[row];
     if (const auto* axes = analysis.directions.find(row)) body.axes = *axes;
-    body.nodes.push_back({body.reference, analysis.domain.owned[body.reference], {}});
+    const auto turning = analysis.domain.turning;
+    body.nodes.push_back({body.reference, analysis.domain.owned[body.reference], body.reference < turning, {}});
     for (const auto& carried : analysis.current.rigid_bodies[i].nodes) {
       body.reach = std::max(body.reach, std::sqrt(dot(vector(carried.offset), vector(carried.offset))));
       if (const auto node = analysis.domain.local_node[carried.node]; node >= 0)
-        body.nodes.push_back({node, analysis.domain.owned[node], carried.offset});
+        body.nodes.push_back({node, analysis.domain.owned[node], carried.tie && node < turning, carried.offset});
     }
   }
   for (const auto& condition : step.boundary) {
@@ -70,8 +71,10 @@ void RigidDynamics::sum_inertia(const Analysis& analysis) {
   constexpr std::size_t moments = 10;  // 1; x y z; xx yy zz xy xz yz
   std::vector<ExactSum> sums(moments * bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    for (const auto& [node, owned, r] : bodies_[i].nodes) {
+    for (const auto& [node, owned, turns, r] : bodies_[i].nodes) {
       if (!owned) continue;
+      if (turns)  // half of it in each of xx, yy, zz: two of them make a moment of inertia
+        for (std::size_t k = 4; k < 7; ++k) sums[moments * i + k].add(0.5 * analysis.rotary_inertia[node]);
       const double mass = analysis.nodal_mass[node];
       const std::array<double, moments> products{1.0,         r[0],        r[1],        r[2],        r[0] * r[0],
                                                  r[1] * r[1], r[2] * r[2], r[0] * r[1], r[0] * r[2], r[1] * r[2]};
@@ -178,12 +181,14 @@ bool RigidDynamics::is_held_still(const Analysis& analysis, std::size_t index, c
   return now.velocity.isZero(0.0) && prescribed(analysis, body, now, instant).isZero(0.0);
 }
 
-void RigidDynamics::add_body_forces(const Analysis& analysis, const double* force, std::size_t index,
+void RigidDynamics::add_body_forces(const Analysis& analysis, const NodalForces& forces, std::size_t index,
                                     std::span<ExactSum, 6> sums) const {
   const auto rotation = rotation_matrix(analysis.current.rigid_bodies[index]);
-  for (const auto& [node, owned, offset] : bodies_[index].nodes) {
+  for (const auto& [node, owned, turns, offset] : bodies_[index].nodes) {
     if (!owned) continue;
-    const double* f = force + 4 * static_cast<std::ptrdiff_t>(node);
+    if (turns)
+      for (int c = 0; c < 3; ++c) sums[3 + c].add(forces.moment[4 * static_cast<std::ptrdiff_t>(node) + c]);
+    const double* f = forces.force + 4 * static_cast<std::ptrdiff_t>(node);
     const Vector3<double> nodal{{f[0], f[1], f[2]}};
     const auto moment = cross(rotation * vector(offset), nodal);
     for (int c = 0; c < 3; ++c) {
@@ -193,7 +198,7 @@ void RigidDynamics::add_body_forces(const Analysis& analysis, const double* forc
   }
 }
 
-void RigidDynamics::sum_forces(const Analysis& analysis, const double* force, const std::vector<Point>& moments,
+void RigidDynamics::sum_forces(const Analysis& analysis, const NodalForces& forces, const std::vector<Point>& moments,
                                const Instant& instant, Which which) {
   const auto sums_of = [&](const Body& body) {
     return std::span<ExactSum, 6>(&sums_[6 * static_cast<std::size_t>(body.sum)], 6);
@@ -205,7 +210,7 @@ void RigidDynamics::sum_forces(const Analysis& analysis, const double* force, co
     bodies_[i].force.setZero();
     if (skipped) continue;
     for (auto& sum : sums_of(bodies_[i])) sum.clear();
-    add_body_forces(analysis, force, i, sums_of(bodies_[i]));
+    add_body_forces(analysis, forces, i, sums_of(bodies_[i]));
   }
   if (count == 0) return;
   for (const auto pair : step_.active_contact_pairs) {
@@ -303,6 +308,7 @@ void RigidDynamics::set_node_velocities(Analysis& analysis, std::size_t index, d
   for (const auto& carried : bodies_[index].nodes) {
     const auto turning = cross(spin, rotation * vector(carried.offset));
     for (int c = 0; c < 3; ++c) analysis.current.velocity[4 * carried.node + c] = middle.velocity[c] + turning[c];
+    if (carried.turns) std::ranges::copy(middle.angular_velocity, &analysis.current.angular_velocity[4 * carried.node]);
   }
 }
 
@@ -335,6 +341,7 @@ void RigidDynamics::add_to_output(Analysis& analysis, const Instant& instant, co
       const auto arm = rotation * vector(carried.offset);
       const auto acceleration = linear + cross(angular, arm) + cross(body.spin, cross(body.spin, arm));
       std::copy_n(acceleration.component.data(), 3, &analysis.acceleration[4 * carried.node]);
+      if (carried.turns) std::ranges::copy(angular.component, &analysis.angular_acceleration[4 * carried.node]);
     }
   }
 }

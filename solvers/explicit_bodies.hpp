@@ -34,9 +34,9 @@ class RigidDynamics {
 
   /// Bodies that are held where they stand in all degrees of freedom need no forces, except for output.
   enum class Which { all, that_need_it };
-  /// Force and moment about the reference node of all nodal forces (4 a node), of contact on masters, and of `moments`; zero
-  /// for bodies that need none. Collective.
-  void sum_forces(const Analysis& analysis, const double* force, const std::vector<Point>& moments,
+  /// Force and moment about the reference node of all nodal forces, of moments on nodes that the body turns, of contact on
+  /// masters, and of `moments`; zero for bodies that need none. Collective.
+  void sum_forces(const Analysis& analysis, const NodalForces& forces, const std::vector<Point>& moments,
                   const Instant& instant, Which which);
   /// Accelerations, reactions and their work; then the velocities of bodies and of their nodes over the next increment.
   void accelerate(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments);
@@ -56,8 +56,8 @@ class RigidDynamics {
  private:
   struct CarriedNode {
     std::int32_t node = -1;  // local
-    bool owned = false;
-    Point offset{};  // in the body's frame
+    bool owned = false, turns = false;  // turns: has a rotation, which is the body's
+    Point offset{};                     // in the body's frame
   };
   struct Body {
     std::int32_t reference = -1;  // local node
@@ -87,7 +87,7 @@ class RigidDynamics {
              const Vector6& wanted) const;
   void set_node_velocities(Analysis& analysis, std::size_t index, double increment) const;
   bool is_held_still(const Analysis& analysis, std::size_t index, const Instant& instant) const;
-  void add_body_forces(const Analysis& analysis, const double* force, std::size_t index, std::span<ExactSum, 6> sums) const;
+  void add_body_forces(const Analysis& analysis, const NodalForces& forces, std::size_t index, std::span<ExactSum, 6> sums) const;
 
   const Step& step_;
   std::vector<Body> bodies_;

@@ -68,25 +68,39 @@ void refuse_jump(const Model& model, const BoundaryCondition& condition, double 
       displacement));
 }
 
-NodalConstraints::NodalConstraints(const Analysis& analysis, const Step& step) {
+NodalConstraints::NodalConstraints(const Analysis& analysis, const Step& step, NodalFreedom freedom) : freedom_(freedom) {
   const Model& model = analysis.model;
+  const bool rotations = freedom == NodalFreedom::rotation;
   for (const auto& condition : step.boundary) {
     const auto node = analysis.domain.local_node[condition.node];
-    if (node < 0 || condition.dof >= 3 || analysis.reference_of(node) >= 0) continue;
-    if (const auto body = analysis.carrier(node); body >= 0) {
+    if (node < 0 || (condition.dof >= 3) != rotations || analysis.reference_of(node) >= 0) continue;
+    if (const auto body = rotations ? analysis.turning_body(node) : analysis.carrier(node); body >= 0) {
       if (condition.propagated) continue;  // the node was attached after the condition was said
       throw InputError(
           fmt::format("{}: error: *BOUNDARY: node {} moves with a rigid body; constrain its reference node {}",
                       model.where({condition.file, condition.line}), model.nodes.id[condition.node],
                       model.nodes.id[model.rigid_bodies[body].reference_node]));
     }
+    if (rotations && std::ranges::count(analysis.rotary_tensors, node, &Analysis::RotaryTensor::node) > 0)
+      continue;  // GyroscopicNodes' business
     constraints_.push_back({.node = node,
-                            .direction = analysis.directions.direction(condition.node, condition.dof),
+                            .direction = analysis.directions.direction(condition.node, condition.dof % 3),
                             .condition = &condition});
   }
 }
 
+std::vector<double>& NodalConstraints::velocity(Analysis& analysis) const {
+  return freedom_ == NodalFreedom::rotation ? analysis.current.angular_velocity : analysis.current.velocity;
+}
+
+const std::vector<double>& NodalConstraints::inertia(const Analysis& analysis) const {
+  return freedom_ == NodalFreedom::rotation ? analysis.rotary_inertia : analysis.nodal_mass;
+}
+
 MotionComponent NodalConstraints::motion(const Analysis& analysis, const Constraint& constraint) const {
+  if (freedom_ == NodalFreedom::rotation)
+    return {component(&analysis.current.rotation[4 * constraint.node], constraint.direction),
+            component(&analysis.current.angular_velocity[4 * constraint.node], constraint.direction)};
   const auto& origin = analysis.model.nodes.coordinates[constraint.condition->node];
   const double* position = &analysis.current.position[4 * constraint.node];
   return {component(position, constraint.direction) - component(origin.data(), constraint.direction),
@@ -102,7 +116,7 @@ void NodalConstraints::set_initial_velocities(Analysis& analysis, const Step& st
   for (const auto& constraint : constraints_) {
     const auto now = motion(analysis, constraint);
     const double wanted = prescribed_initial_velocity(analysis.model, step, *constraint.condition, instant, now);
-    add(&analysis.current.velocity[4 * constraint.node], wanted - now.velocity, constraint.direction);
+    add(&velocity(analysis)[4 * constraint.node], wanted - now.velocity, constraint.direction);
   }
 }
 
@@ -113,15 +127,15 @@ void NodalConstraints::find_reactions(const Analysis& analysis, const Step& step
     constraint.old_velocity = now.velocity;
     constraint.new_velocity = prescribed_velocity(analysis.model, step, *constraint.condition, instant, now);
     const double acceleration = (constraint.new_velocity - constraint.old_velocity) / instant.average();
-    constraint.reaction = analysis.nodal_mass[constraint.node] * acceleration -
+    constraint.reaction = inertia(analysis)[constraint.node] * acceleration -
                           component(force + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
   }
 }
 
 void NodalConstraints::enforce(Analysis& analysis, const Instant& instant) const {
   for (const auto& constraint : constraints_) {
-    double* velocity = &analysis.current.velocity[4 * constraint.node];
-    add(velocity, constraint.new_velocity - component(velocity, constraint.direction), constraint.direction);
+    double* const entry = &velocity(analysis)[4 * constraint.node];
+    add(entry, constraint.new_velocity - component(entry, constraint.direction), constraint.direction);
     // Trapezoidal: half the work of the increment before, half of the one that follows.
     analysis.current.nodal_work[constraint.node].external +=
         0.5 * constraint.reaction *
@@ -130,11 +144,14 @@ void NodalConstraints::enforce(Analysis& analysis, const Instant& instant) const
 }
 
 void NodalConstraints::add_to_output(Analysis& analysis, const Instant& instant) const {
+  const bool rotations = freedom_ == NodalFreedom::rotation;
+  auto& reaction = rotations ? analysis.reaction_moment : analysis.reaction;
+  auto& acceleration = rotations ? analysis.angular_acceleration : analysis.acceleration;
   for (const auto& constraint : constraints_) {
-    add(&analysis.reaction[4 * constraint.node], constraint.reaction, constraint.direction);
+    add(&reaction[4 * constraint.node], constraint.reaction, constraint.direction);
     analysis.work_ahead[constraint.node].external += 0.5 * instant.next * constraint.reaction * constraint.new_velocity;
-    const double mass = analysis.nodal_mass[constraint.node];
-    if (mass > 0.0) add(&analysis.acceleration[4 * constraint.node], constraint.reaction / mass, constraint.direction);
+    const double mass = inertia(analysis)[constraint.node];
+    if (mass > 0.0) add(&acceleration[4 * constraint.node], constraint.reaction / mass, constraint.direction);
   }
 }
 
@@ -145,10 +162,12 @@ void NodalConstraints::remove_constrained(double* vector) const {
   }
 }
 
-double NodalConstraints::squared_constrained(const Domain& domain, const double* vector) const {
+double NodalConstraints::squared_constrained(const Domain& domain, const double* vector,
+                                             const std::function<double(std::size_t)>& factor) const {
   double sum = 0.0;
   for (const auto& constraint : constraints_) {
-    const double value = component(vector + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
+    const double value = factor(static_cast<std::size_t>(constraint.node)) *
+                         component(vector + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
     if (domain.owned[constraint.node]) sum += value * value;
   }
   return sum;

@@ -1,6 +1,7 @@
 // Motions that boundary conditions prescribe in an explicit step: of rigid bodies and of ordinary nodes alike.
 #pragma once
 
+#include <functional>
 #include <vector>
 
 #include "explicit_time.hpp"
@@ -25,11 +26,14 @@ double prescribed_initial_velocity(const Model& model, const Step& step, const B
 /// @throws InputError where a displacement without amplitude would make the node jump from `displacement`.
 void refuse_jump(const Model& model, const BoundaryCondition& condition, double displacement);
 
-/// Boundary conditions on ordinary nodes of this rank, in the nodes' own directions.
+enum class NodalFreedom { translation, rotation };
+
+/// Boundary conditions on translations, or on rotations, of ordinary nodes of this rank, in the nodes' own directions. "Forces" are
+/// moments, velocities spins and displacements accumulated rotations where the freedoms are rotations.
 class NodalConstraints {
  public:
-  /// @throws InputError for a condition on a node that a rigid body carries.
-  NodalConstraints(const Analysis& analysis, const Step& step);
+  /// @throws InputError for a condition on a node that a rigid body carries (rotations: turns).
+  NodalConstraints(const Analysis& analysis, const Step& step, NodalFreedom freedom);
 
   void refuse_jumps(const Analysis& analysis) const;
   void set_initial_velocities(Analysis& analysis, const Step& step, const Instant& instant) const;
@@ -43,8 +47,9 @@ class NodalConstraints {
   void add_to_output(Analysis& analysis, const Instant& instant) const;
   /// Takes the constrained components out of a nodal vector (4 a node).
   void remove_constrained(double* vector) const;
-  /// Sum of the squares of those components on owned nodes.
-  double squared_constrained(const Domain& domain, const double* vector) const;
+  /// Sum of the squares of those components on owned nodes, each times `factor(node)`.
+  double squared_constrained(const Domain& domain, const double* vector,
+                             const std::function<double(std::size_t)>& factor) const;
 
  private:
   struct Constraint {
@@ -54,7 +59,10 @@ class NodalConstraints {
     double old_velocity = 0.0, new_velocity = 0.0, reaction = 0.0;
   };
   MotionComponent motion(const Analysis& analysis, const Constraint& constraint) const;
+  std::vector<double>& velocity(Analysis& analysis) const;
+  const std::vector<double>& inertia(const Analysis& analysis) const;
 
+  NodalFreedom freedom_;
   std::vector<Constraint> constraints_;
 };
 

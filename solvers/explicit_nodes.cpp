@@ -4,6 +4,7 @@
 #include <experimental/simd>
 
 #include "explicit_scale.hpp"
+#include "math/rotation.hpp"
 
 namespace balocco {
 
@@ -57,6 +58,18 @@ bool kick(std::span<double> velocity, std::span<const double> force, std::span<c
 
 void drift(std::span<double> position, std::span<const double> velocity, double increment) {
   for (std::size_t i = 0; i < position.size(); ++i) position[i] += increment * velocity[i];
+}
+
+void drift_rotations(std::span<double> orientation, std::span<double> rotation, std::span<const double> angular_velocity,
+                     double increment) {
+  for (std::size_t i = 0; i < orientation.size(); i += 4) {
+    const double* const spin = &angular_velocity[i];
+    double* const q = &orientation[i];
+    const Vector3<double> turn{{increment * spin[0], increment * spin[1], increment * spin[2]}};
+    const auto now = turned(Quaternion<double>{q[0], q[1], q[2], q[3]}, turn);
+    for (int c = 0; c < 4; ++c) q[c] = now[c];
+    for (int c = 0; c < 3; ++c) rotation[i + c] += turn[c];
+  }
 }
 
 bool has_outgrown(const double* force) {

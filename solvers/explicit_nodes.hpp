@@ -24,6 +24,11 @@ bool kick(std::span<double> velocity, std::span<const double> force, std::span<c
 /// position += increment * velocity.
 void drift(std::span<double> position, std::span<const double> velocity, double increment);
 
+/// Turns nodes over an increment: orientations (unit quaternions) by the exponential of increment * spin, and the accumulated
+/// rotation vectors. 4 doubles a node each.
+void drift_rotations(std::span<double> orientation, std::span<double> rotation, std::span<const double> angular_velocity,
+                     double increment);
+
 /// True if the force of one node is what `kick` refuses.
 bool has_outgrown(const double* force);
 

@@ -15,9 +15,15 @@ void ExplicitStep::fill_output() {
     std::fill(analysis_.reaction.begin(), analysis_.reaction.end(), 0.0);
     for (std::size_t node = 0; node < inverse_mass_.size(); ++node)
       for (std::size_t c = 0; c < 3; ++c) acceleration[4 * node + c] = inverse_mass_[node] * force_[4 * node + c];
+    std::fill(analysis_.reaction_moment.begin(), analysis_.reaction_moment.end(), 0.0);
+    for (std::size_t node = 0; node < inverse_rotary_inertia_.size(); ++node)
+      for (std::size_t c = 0; c < 3; ++c)
+        analysis_.angular_acceleration[4 * node + c] = inverse_rotary_inertia_[node] * moment_[4 * node + c];
     std::fill(analysis_.work_ahead.begin(), analysis_.work_ahead.end(), NodalWork{});
     add_half_work(next_increment_, analysis_.work_ahead);
     constraints_.add_to_output(analysis_, instant());
+    rotation_constraints_.add_to_output(analysis_, instant());
+    gyroscopic_.add_to_output(analysis_, instant());
     bodies_.add_to_output(analysis_, instant(), moments_);
   });
 }
@@ -45,20 +51,25 @@ bool ExplicitStep::observe() {
 }
 
 void ExplicitStep::log_balance() {
-  auto free_force = force_;
+  const auto& domain = analysis_.domain;
   const auto balance = bodies_.balance();
-  const double constrained = constraints_.squared_constrained(analysis_.domain, force_.data());
-  constraints_.remove_constrained(free_force.data());
-  double unbalanced = 0.0, loads = 0.0;
-  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
-    if (!analysis_.domain.owned[node]) continue;
-    const bool free = inverse_mass_[node] > 0.0;
-    for (int c = 0; c < 3; ++c) {
-      if (free) unbalanced += free_force[4 * node + c] * free_force[4 * node + c];
-      loads += external_force_[4 * node + c] * external_force_[4 * node + c];
+  std::array<double, 2> sums{};  // squares: unbalanced; loads and reactions. Moments count with 1 / lever.
+  const auto add = [&](std::vector<double> vector, const std::vector<double>& external, const NodalConstraints& constraints,
+                       const std::vector<double>& inverse_inertia, auto inverse_lever) {
+    sums[1] += constraints.squared_constrained(domain, vector.data(), inverse_lever);
+    constraints.remove_constrained(vector.data());
+    for (std::size_t node = 0; node < inverse_inertia.size(); ++node) {
+      if (!domain.owned[node]) continue;
+      const double weight = inverse_lever(node) * inverse_lever(node);
+      for (std::size_t c = 0; c < 3; ++c) {
+        if (inverse_inertia[node] > 0.0) sums[0] += weight * vector[4 * node + c] * vector[4 * node + c];
+        sums[1] += weight * external[4 * node + c] * external[4 * node + c];
+      }
     }
-  }
-  std::array<double, 2> sums{unbalanced, constrained + loads};
+  };
+  add(force_, external_force_, constraints_, inverse_mass_, [](std::size_t) { return 1.0; });
+  add(moment_, external_moment_, rotation_constraints_, inverse_rotary_inertia_,
+      [&](std::size_t node) { return 1.0 / scale_.lever[node]; });
   analysis_.communicator.sum(std::span<double>(sums));
   const double residual = std::sqrt(sums[0] + balance.unbalanced);
   const double external = std::sqrt(sums[1] + balance.reactions);

@@ -45,11 +45,16 @@ std::vector<double> shortest_edges(const Model& model, const Domain& domain) {
 double reference_increment(const Analysis& analysis) {
   const auto& domain = analysis.domain;
   std::vector<double> position(4 * static_cast<std::size_t>(domain.size() + 1), 0.0), velocity(position.size(), 0.0),
-      force(position.size(), 0.0);
+      force(position.size(), 0.0), moment(position.size(), 0.0),
+      orientation(4 * static_cast<std::size_t>(domain.turning), 0.0), spin(orientation.size(), 0.0);
+  for (std::size_t i = 0; i < orientation.size(); i += 4) orientation[i] = 1.0;
   for (std::int32_t node = 0; node < domain.size(); ++node)
     std::copy_n(analysis.model.nodes.coordinates[domain.node_row[node]].data(), 3, &position[4 * node]);
-  const ExplicitCycle cycle{.motion = {.position = position.data(), .velocity = velocity.data()},
-                            .forces = {.force = force.data()}};
+  const ExplicitCycle cycle{.motion = {.position = position.data(),
+                                       .velocity = velocity.data(),
+                                       .orientation = orientation.data(),
+                                       .angular_velocity = spin.data()},
+                            .forces = {.force = force.data(), .moment = moment.data()}};
   StableIncrement smallest;
   for (const auto& group : analysis.element_groups) {
     auto history = group->initial_history();
@@ -81,14 +86,16 @@ double greatest_factor(const Model& model, std::int32_t amplitude) {
   return greatest;
 }
 
-void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& largest) {
+void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& largest, std::vector<double>& moment) {
   const auto greatest = [&](const auto& load) {
     return std::max(std::abs(load.magnitude), std::abs(load.previous)) *
            greatest_factor(analysis.model, load.amplitude);
   };
-  for (const auto& load : step.concentrated_loads)
-    if (const auto node = analysis.domain.local_node[load.node]; node >= 0 && load.dof < 3)
-      largest[node] += greatest(load);
+  for (const auto& load : step.concentrated_loads) {
+    const auto node = analysis.domain.local_node[load.node];
+    if (node >= 0 && load.dof < 3) largest[node] += greatest(load);
+    if (load.dof >= 3 && node >= 0 && node < analysis.domain.turning) moment[node] += greatest(load);
+  }
   for (const auto& load : step.gravity)
     for (std::size_t node = 0; node < largest.size(); ++node)
       largest[node] += greatest(load) * analysis.nodal_mass[node];
@@ -103,7 +110,12 @@ ForceScale force_scale(const Analysis& analysis, const Step& step) {
   auto largest = element_masses(analysis);
   for (std::size_t node = 0; node < largest.size(); ++node)
     largest[node] *= edge[node] / (scale.reference_increment * scale.reference_increment);
-  add_loads(analysis, step, largest);
+  // A rotation of about one strains the element: moments are rotary inertia / increment^2, or that force at the edge's end.
+  std::vector<double> moment(analysis.rotary_inertia);
+  scale.lever.assign(edge.begin(), edge.begin() + analysis.domain.turning);
+  for (std::size_t node = 0; node < moment.size(); ++node)
+    moment[node] = std::max(moment[node] / (scale.reference_increment * scale.reference_increment), largest[node] * edge[node]);
+  add_loads(analysis, step, largest, moment);
   for (const auto pair : step.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
     for (std::int32_t point = 0; point < contact.size(); ++point)
@@ -112,6 +124,7 @@ ForceScale force_scale(const Analysis& analysis, const Step& step) {
   for (const double value : largest)
     scale.rounding_constant.push_back(rounding_constant(value > 0.0 ? safety * value : 1.0));
   scale.rounding_constant.push_back(rounding_constant(1.0));
+  for (const double value : moment) scale.moment_constant.push_back(rounding_constant(value > 0.0 ? safety * value : 1.0));
   return scale;
 }
 

@@ -10,6 +10,8 @@ namespace balocco {
 struct ForceScale {
   double reference_increment = 1e300;     // smallest stable increment of the undeformed elements, over all ranks
   std::vector<double> rounding_constant;  // per local node and for the scratch node, the same bits on every copy
+  std::vector<double> moment_constant;    // likewise for moments: per node that turns
+  std::vector<double> lever;              // per node that turns: the shortest edge beside it, which turns moments into forces
 };
 
 /// Fixed for a step by the undeformed model and the step's loads, so that a restart on any number of ranks finds the

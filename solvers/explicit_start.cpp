@@ -89,6 +89,8 @@ void apply_initial_velocities(Analysis& analysis) {
       in_set[row] = true;
       const auto node = analysis.domain.local_node[row];
       if (node < 0) continue;
+      if (node < analysis.domain.turning)
+        for (int c = 0; c < 3; ++c) state.angular_velocity[4 * node + c] += spin_of(initial)[c];
       const auto velocity = velocity_at(initial, vector(&state.position[4 * node]));
       for (int c = 0; c < 3; ++c) state.velocity[4 * node + c] += velocity[c];
     }

@@ -24,10 +24,12 @@ double time_before(const Model& model, std::int32_t step) {
   return time;
 }
 
-NodalConstraints make_constraints(const Analysis& analysis, const Step& step) {
-  std::optional<NodalConstraints> constraints;
-  analysis.communicator.together([&] { constraints.emplace(analysis, step); });
-  return std::move(*constraints);
+/// What a constructor refuses on one rank is refused on all.
+template <class T, class... Arguments>
+T make_together(const Analysis& analysis, Arguments... arguments) {
+  std::optional<T> made;
+  analysis.communicator.together([&] { made.emplace(analysis, arguments...); });
+  return std::move(*made);
 }
 
 /// Attachments come first of all: what follows depends on who carries which node.
@@ -45,25 +47,41 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       total_time_at_start_(time_before(analysis.model, analysis.current.step)),
       scale_(force_scale(analysis, step)),
       control_(analysis, step),
-      constraints_(make_constraints(analysis, step)),
+      constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::translation)),
+      rotation_constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::rotation)),
+      gyroscopic_(make_together<GyroscopicNodes>(analysis, std::ref(step))),
       bodies_(analysis, step),
-      external_halo_(analysis.communicator, analysis.domain.halo->neighbours()),
+      external_halo_(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::external),
       moments_(analysis.model.rigid_bodies.size()) {
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
   force_.assign(4 * (nodes + 1), 0.0);
   for (std::size_t node = 0; node <= nodes; ++node) force_[4 * node + 3] = scale_.rounding_constant[node];
   external_force_ = force_;
-  inverse_mass_.assign(nodes, 0.0);
-  for (std::size_t node = 0; node < nodes; ++node) {
-    const auto local = static_cast<std::int32_t>(node);
-    const bool moved_by_body = analysis.carrier(local) >= 0 || analysis.reference_of(local) >= 0;
-    if (!moved_by_body && analysis.nodal_mass[node] > 0.0) inverse_mass_[node] = 1.0 / analysis.nodal_mass[node];
-  }
+  if (analysis.domain.turning > 0) moment_.assign(force_.size(), 0.0);
+  for (std::size_t node = 0; node < scale_.moment_constant.size(); ++node)
+    moment_[4 * node + 3] = scale_.moment_constant[node];
+  external_moment_ = moment_;
+  find_inverse_inertia();
   const bool damped =
       std::any_of(analysis.nodal_damping.begin(), analysis.nodal_damping.end(), [](double c) { return c > 0.0; });
-  if (analysis.communicator.any(damped)) damping_force_.assign(4 * nodes, 0.0);
+  if (analysis.communicator.any(damped)) {
+    damping_force_.assign(4 * nodes, 0.0);
+    damping_moment_.assign(analysis.current.rotation.size(), 0.0);
+  }
   analysis.communicator.together([&] { refuse_loads_without_inertia(); });
   find_loaded_nodes();
+}
+
+void ExplicitStep::find_inverse_inertia() {
+  const auto inverse = [](double inertia, bool moved_otherwise) {
+    return moved_otherwise || !(inertia > 0.0) ? 0.0 : 1.0 / inertia;
+  };
+  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node)
+    inverse_mass_.push_back(
+        inverse(analysis_.nodal_mass[node], analysis_.carrier(node) >= 0 || analysis_.reference_of(node) >= 0));
+  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node)
+    inverse_rotary_inertia_.push_back(
+        inverse(analysis_.rotary_inertia[node], analysis_.turning_body(node) >= 0 || gyroscopic_.contains(node)));
 }
 
 void ExplicitStep::refuse_loads_without_inertia() const {
@@ -77,9 +95,12 @@ void ExplicitStep::refuse_loads_without_inertia() const {
           fmt::format("{}: error: *CLOAD: node {} has no mass, so that an explicit step cannot move it; give it a "
                       "MASS element or load a node of an element",
                       model.where({load.file, load.line}), model.nodes.id[load.node]));
-    if (load.dof >= 3 && analysis_.reference_of(node) < 0)
+    const bool turns = analysis_.turning_body(node) >= 0 || gyroscopic_.contains(node) ||
+                       (node < analysis_.domain.turning && inverse_rotary_inertia_[node] > 0.0);
+    if (load.dof >= 3 && !turns)
       throw InputError(
-          fmt::format("{}: error: *CLOAD: node {} has no rotation; moments act on reference nodes of rigid bodies",
+          fmt::format("{}: error: *CLOAD: node {} has no rotary inertia, so that an explicit step cannot turn it; give it a "
+                      "ROTARYI element or load a node of a beam or shell",
                       model.where({load.file, load.line}), model.nodes.id[load.node]));
   }
 }
@@ -87,7 +108,7 @@ void ExplicitStep::refuse_loads_without_inertia() const {
 void ExplicitStep::find_loaded_nodes() {
   std::vector<bool> loaded(static_cast<std::size_t>(analysis_.domain.size()), false);
   for (const auto& load : step_.concentrated_loads)
-    if (const auto node = analysis_.domain.local_node[load.node]; node >= 0 && load.dof < 3) loaded[node] = true;
+    if (const auto node = analysis_.domain.local_node[load.node]; node >= 0) loaded[node] = true;
   for (const auto& load : step_.pressures) {
     const auto& faces = *analysis_.pressure_faces[load.surface];
     for (std::int32_t face = 0; face < faces.size(); ++face)
@@ -119,15 +140,18 @@ void ExplicitStep::prepare_start() {
       state.step == 0 || analysis_.model.steps[state.step - 1].procedure == Step::Procedure::static_analysis;
   if (follows_static) {
     std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
+    std::fill(state.angular_velocity.begin(), state.angular_velocity.end(), 0.0);
     for (auto& body : state.rigid_bodies) body.velocity = body.angular_velocity = {};
   }
   analysis_.communicator.together([&] {
     constraints_.refuse_jumps(analysis_);
+    rotation_constraints_.refuse_jumps(analysis_);
     bodies_.refuse_jumps(analysis_);
   });
   if (!state.dynamic) apply_initial_velocities(analysis_);
   if (!state.dynamic || follows_static) {
     constraints_.set_initial_velocities(analysis_, step_, instant());
+    rotation_constraints_.set_initial_velocities(analysis_, step_, instant());
     bodies_.set_initial_velocities(analysis_, instant());
   }
   if (!state.dynamic) check_rolling_radius(analysis_, step_, observer_);
@@ -137,7 +161,10 @@ void ExplicitStep::prepare_start() {
 void ExplicitStep::advance_positions() {
   auto& state = analysis_.current;
   const double increment = state.time_increment;
-  timers.measure(Phase::update, [&] { drift(state.position, state.velocity, increment); });
+  timers.measure(Phase::update, [&] {
+    drift(state.position, state.velocity, increment);
+    drift_rotations(state.orientation, state.rotation, state.angular_velocity, increment);
+  });
   timers.measure(Phase::bodies, [&] { bodies_.advance(analysis_, increment); });
   state.step_time = control_.time_after(state.step_time, increment);
   state.total_time = total_time_at_start_ + state.step_time;
@@ -150,20 +177,22 @@ void ExplicitStep::begin_external_loads() {
   const auto& state = analysis_.current;
   timers.measure(Phase::loads, [&] {
     clear_vectors(force_);
+    clear_vectors(turning(moment_));
     stability_ = {};
     if (!has_loads_) return;
     std::fill(moments_.begin(), moments_.end(), Point{});
     clear_vectors(external_force_);
-    add_external_forces(analysis_, step_, state.step_time, state.total_time, state.position.data(),
-                        external_force_.data(), moments_);
-    external_halo_.begin_sum(external_force_.data());
+    clear_vectors(turning(external_moment_));
+    add_external_forces(analysis_, step_, state.step_time, state.total_time, state.position.data(), external_forces(),
+                        moments_);
+    external_halo_.begin_sum(external_force_.data(), external_moment_.data());
   });
 }
 
 void ExplicitStep::add_elements(Portion portion) {
   auto& state = analysis_.current;
   const ExplicitCycle cycle{.motion = state.motion(),
-                            .forces = {.force = force_.data()},
+                            .forces = forces(),
                             .increment = last_increment_,
                             .linear_bulk_viscosity = step_.explicit_procedure.linear_bulk_viscosity,
                             .quadratic_bulk_viscosity = step_.explicit_procedure.quadratic_bulk_viscosity};
@@ -180,7 +209,7 @@ void ExplicitStep::add_interface_elements() {
 }
 
 void ExplicitStep::begin_halo() {
-  timers.measure(Phase::halo, [&] { analysis_.domain.halo->begin_sum(force_.data()); });
+  timers.measure(Phase::halo, [&] { analysis_.domain.halo->begin_sum(force_.data(), moment_.data()); });
 }
 
 void ExplicitStep::add_interior_elements() {
@@ -200,11 +229,13 @@ void ExplicitStep::add_contact() {
 
 void ExplicitStep::finish_halo() {
   timers.measure(Phase::halo, [&] {
-    if (has_loads_) external_halo_.finish_sum(external_force_.data());
-    analysis_.domain.halo->finish_sum(force_.data());
+    if (has_loads_) external_halo_.finish_sum(external_force_.data(), external_moment_.data());
+    analysis_.domain.halo->finish_sum(force_.data(), moment_.data());
   });
   timers.measure(Phase::loads, [&] {
-    if (has_loads_) add_vectors(force_, external_force_);
+    if (!has_loads_) return;
+    add_vectors(force_, external_force_);
+    add_vectors(turning(moment_), external_moment_);
   });
 }
 
@@ -212,13 +243,14 @@ void ExplicitStep::add_damping() {
   if (damping_force_.empty()) return;
   timers.measure(Phase::update, [&] {
     add_mass_damping(force_, damping_force_, analysis_.nodal_damping, analysis_.current.velocity);
+    add_mass_damping(moment_, damping_moment_, analysis_.rotary_damping, analysis_.current.angular_velocity);
   });
 }
 
 void ExplicitStep::sum_body_forces() {
   using Which = RigidDynamics::Which;
   const Which which = attention_ || finished() ? Which::all : Which::that_need_it;
-  timers.measure(Phase::bodies, [&] { bodies_.sum_forces(analysis_, force_.data(), moments_, instant(), which); });
+  timers.measure(Phase::bodies, [&] { bodies_.sum_forces(analysis_, forces(), moments_, instant(), which); });
 }
 
 void ExplicitStep::choose_increment() {
@@ -249,13 +281,19 @@ void ExplicitStep::report_collapse() {
 void ExplicitStep::add_half_work(double increment, std::vector<NodalWork>& work) const {
   const double half = 0.5 * increment;
   const auto& state = analysis_.current;
-  const auto power = [&](const std::vector<double>& force, std::size_t node) {
-    const double *f = &force[4 * node], *v = &state.velocity[4 * node];
+  const auto power = [](const std::vector<double>& force, const std::vector<double>& velocity, std::size_t node) {
+    const double *f = &force[4 * node], *v = &velocity[4 * node];
     return f[0] * v[0] + f[1] * v[1] + f[2] * v[2];
   };
-  for (const auto node : loaded_nodes_) work[node].external += half * power(external_force_, node);
+  for (const auto node : loaded_nodes_) {
+    work[node].external += half * power(external_force_, state.velocity, node);
+    if (node < analysis_.domain.turning)
+      work[node].external += half * power(external_moment_, state.angular_velocity, node);
+  }
   for (std::size_t node = 0; 4 * node < damping_force_.size(); ++node)
-    work[node].damping += half * power(damping_force_, node);
+    work[node].damping += half * power(damping_force_, state.velocity, node);
+  for (std::size_t node = 0; 4 * node < damping_moment_.size(); ++node)
+    work[node].damping += half * power(damping_moment_, state.angular_velocity, node);
 }
 
 void ExplicitStep::update_velocities() {
@@ -264,8 +302,12 @@ void ExplicitStep::update_velocities() {
   timers.measure(Phase::update, [&] {
     add_half_work(now.previous, state.nodal_work);
     constraints_.find_reactions(analysis_, step_, now, force_.data());
-    if (!kick(state.velocity, force_, inverse_mass_, now.average())) remember_blow_up();
+    rotation_constraints_.find_reactions(analysis_, step_, now, moment_.data());
+    const bool sound = kick(state.velocity, force_, inverse_mass_, now.average());
+    if (!kick(state.angular_velocity, moment_, inverse_rotary_inertia_, now.average()) || !sound) remember_blow_up();
     constraints_.enforce(analysis_, now);
+    rotation_constraints_.enforce(analysis_, now);
+    gyroscopic_.accelerate(analysis_, step_, now, moment_.data());
   });
   timers.measure(Phase::bodies, [&] { bodies_.accelerate(analysis_, now, moments_); });
   timers.measure(Phase::update, [&] { add_half_work(now.next, state.nodal_work); });
@@ -275,7 +317,10 @@ void ExplicitStep::update_velocities() {
 void ExplicitStep::remember_blow_up() {
   if (failure_) return;
   std::int32_t node = 0;
-  while (!has_outgrown(&force_[4 * static_cast<std::size_t>(node)])) ++node;
+  const auto has_blown_up = [&](std::size_t at) {
+    return has_outgrown(&force_[4 * at]) || (at < inverse_rotary_inertia_.size() && has_outgrown(&moment_[4 * at]));
+  };
+  while (!has_blown_up(static_cast<std::size_t>(node))) ++node;
   const Model& model = analysis_.model;
   std::string element;
   for (const auto& group : analysis_.element_groups) {

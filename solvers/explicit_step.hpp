@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "explicit_bodies.hpp"
+#include "explicit_gyroscopic.hpp"
 #include "explicit_motion.hpp"
 #include "explicit_scale.hpp"
 #include "explicit_time.hpp"
@@ -54,7 +55,13 @@ class ExplicitStep {
   Instant instant() const;
   void add_elements(Portion portion);
   void refuse_loads_without_inertia() const;
+  void find_inverse_inertia();
   void find_loaded_nodes();
+  NodalForces forces() { return {force_.data(), moment_.data()}; }
+  NodalForces external_forces() { return {external_force_.data(), external_moment_.data()}; }
+  std::span<double> turning(std::vector<double>& nodal) const {
+    return std::span(nodal).first(4 * static_cast<std::size_t>(analysis_.domain.turning));
+  }
   /// Adds the work of external and damping forces over half an increment.
   void add_half_work(double increment, std::vector<NodalWork>& work) const;
   void remember_blow_up();
@@ -67,13 +74,17 @@ class ExplicitStep {
   double total_time_at_start_ = 0.0;  // of the step
   ForceScale scale_;
   TimeControl control_;
-  NodalConstraints constraints_;
+  NodalConstraints constraints_, rotation_constraints_;
+  GyroscopicNodes gyroscopic_;
   RigidDynamics bodies_;
   Halo external_halo_;
   bool has_loads_ = false;  // of any rank
 
   std::vector<double> force_, external_force_, damping_force_;  // 4 a node; damping empty where there is none
   std::vector<double> inverse_mass_;                            // zero for nodes that bodies move
+  // Of nodes that turn; moments as long as forces, so that both have the scratch node in one place, or empty:
+  std::vector<double> moment_, external_moment_, damping_moment_;
+  std::vector<double> inverse_rotary_inertia_;  // zero for nodes that bodies turn, and for gyroscopic ones
   std::vector<std::int32_t> loaded_nodes_;                      // on which external forces may act
   std::vector<Point> moments_;                                  // external, per rigid body
   LocalStability stability_;

@@ -78,8 +78,9 @@ void ImplicitSystem::add_elements(bool& sound) {
 void ImplicitSystem::add_element(std::size_t index, std::int32_t element, bool& sound) {
   const auto& group = *analysis_.element_groups[index];
   const auto nodes = group.nodes(element);
-  const bool rigid = moves_as_one(nodes);
-  force_.resize(3 * nodes.size());
+  const bool rigid = moves_as_one(group, element);
+  const int freedoms = group.freedoms_per_node();
+  force_.resize(freedoms * nodes.size());
   block_.resize(rigid ? 0 : force_.size() * force_.size());
   old_history_.resize(group.history_size());
   new_history_.resize(group.history_size());
@@ -91,27 +92,32 @@ void ImplicitSystem::add_element(std::size_t index, std::int32_t element, bool& 
   }
   group.scatter_history(element, new_history_, trial_history_[index]);
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    for (int axis = 0; axis < 3; ++axis) {
-      const double component = force_[3 * i + axis];
-      residual_[map_.slot(nodes[i], axis)] += component;
-      force_sum_[0] += std::abs(component);
+    for (int dof = 0; dof < freedoms; ++dof) {
+      const auto slot = map_.slot(nodes[i], dof);
+      const double component = force_[freedoms * i + dof];
+      residual_[slot] += component;
+      force_sum_[0] += std::abs(component) / lever_[slot];
     }
   force_sum_[1] += static_cast<double>(force_.size());
-  if (!rigid) stiffness_.add(motions_of(nodes), block_);
+  if (!rigid) stiffness_.add(motions_of(group, element), block_);
 }
 
 void ImplicitSystem::add_loads(const AssemblyRequest& request) {
   const auto nodes = analysis_.domain.size();
   nodal_.assign(4 * (nodes + 1), 0.0);  // a rounding constant of zero: plain sums
+  nodal_moment_.assign(4 * analysis_.domain.turning, 0.0);
+  const NodalForces nodal{nodal_.data(), nodal_moment_.data()};
   std::vector<Point> moments(analysis_.model.rigid_bodies.size());
   const double* position = analysis_.current.position.data();
   if (request.initial_loads)
-    add_external_forces(analysis_, with_initial_loads(step_), 0.0, request.total_time, position, nodal_.data(),
+    add_external_forces(analysis_, with_initial_loads(step_), 0.0, request.total_time, position, nodal,
                         moments);
   else
-    add_external_forces(analysis_, step_, request.step_time, request.total_time, position, nodal_.data(), moments);
+    add_external_forces(analysis_, step_, request.step_time, request.total_time, position, nodal, moments);
   for (std::int32_t node = 0; node < nodes; ++node)
     for (int axis = 0; axis < 3; ++axis) external_[map_.slot(node, axis)] += nodal_[4 * node + axis];
+  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node)
+    for (int axis = 0; axis < 3; ++axis) external_[map_.slot(node, 3 + axis)] += nodal_moment_[4 * node + axis];
   for (std::size_t body = 0; body < moments.size(); ++body)
     for (int axis = 0; axis < 3; ++axis) {
       const auto slot = map_.rotation_slot(static_cast<std::int32_t>(body), axis);
@@ -201,15 +207,7 @@ void ImplicitSystem::add_stabilization(const AssemblyRequest& request) {
   if (viscosity == 0.0) return;
   for (const auto slot : map_.owned_slots()) {
     if (map_.role(slot) == ImplicitDofMap::Role::absent) continue;
-    const auto axis = slot % 3;
-    if (map_.is_rotation(slot)) {
-      const auto body = (slot - map_.rotation_slot(0, 0)) / 3;
-      residual_[slot] += viscosity * mass_[slot] *
-                         (analysis_.current.rigid_bodies[body].rotation[axis] - start_.bodies[body].rotation[axis]);
-    } else {
-      const auto component = 4 * (slot / 3) + axis;
-      residual_[slot] += viscosity * mass_[slot] * (analysis_.current.position[component] - start_.position[component]);
-    }
+    residual_[slot] += viscosity * mass_[slot] * moved(slot)[slot % 3];
   }
 }
 
@@ -233,6 +231,9 @@ void ImplicitSystem::gather_at_bodies() {
       for (int j = 0; j < 3; ++j) turning[body][3 * i + j] += arm[i] * force[j] - (i == j ? along : 0.0);
     }
   }
+  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node)
+    if (const auto body = analysis_.turning_body(node); body >= 0 && analysis_.domain.owned[node])
+      for (int i = 0; i < 3; ++i) sums[6 * body + 3 + i] += residual_[map_.slot(node, 3 + i)];
   analysis_.communicator.sum(std::span<double>(sums));
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     const auto reference = analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
@@ -253,6 +254,7 @@ void ImplicitSystem::turn_into_slot_directions() {
   for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
     if (!map_.has_own_directions(node)) continue;
     turn(map_.slot(node, 0), map_.directions(node));
+    if (node < analysis_.domain.turning) turn(map_.slot(node, 3), map_.directions(node));
     if (const auto body = analysis_.reference_of(node); body >= 0)
       turn(map_.rotation_slot(body, 0), map_.directions(node));
   }

@@ -22,12 +22,19 @@ Point cross_product(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Model nodes that some element with stiffness holds, on any rank.
+constexpr std::int8_t held_in_place = 1, held_from_turning = 2;
+
+/// Model nodes that some element with stiffness holds, on any rank: in place, or from turning too.
 std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
   std::vector<std::int8_t> held(analysis.model.nodes.size(), 0);
-  for (const auto& group : analysis.element_groups)
+  for (const auto& group : analysis.element_groups) {
+    const auto kind = group->freedoms_per_node() == 6 ? held_from_turning : held_in_place;
     for (std::int32_t element = 0; element < group->size(); ++element)
-      for (const auto node : group->nodes(element)) held[analysis.domain.node_row[node]] = 1;
+      for (const auto node : group->nodes(element)) {
+        auto& mark = held[analysis.domain.node_row[node]];
+        mark = std::max(mark, kind);
+      }
+  }
   MPI_Allreduce(MPI_IN_PLACE, held.data(), static_cast<int>(held.size()), MPI_INT8_T, MPI_MAX,
                 analysis.communicator.handle());
   return held;
@@ -36,8 +43,8 @@ std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
 }  // namespace
 
 ImplicitDofMap::ImplicitDofMap(const Analysis& analysis, std::span<const std::int32_t> prescribed)
-    : analysis_(analysis), nodes_(analysis.domain.size()) {
-  for (std::int32_t node = 0; node < nodes_; ++node)
+    : analysis_(analysis), layout_(analysis.domain) {
+  for (std::int32_t node = 0; node < layout_.nodes; ++node)
     directions_.push_back(analysis.directions.find(analysis.domain.node_row[node]));
   find_roles(prescribed);
   number();
@@ -45,7 +52,8 @@ ImplicitDofMap::ImplicitDofMap(const Analysis& analysis, std::span<const std::in
 
 std::int32_t ImplicitDofMap::node_of(std::int32_t slot) const {
   if (!is_rotation(slot)) return slot / 3;
-  const auto body = (slot - 3 * nodes_) / 3;
+  const auto body = body_of(slot);
+  if (body < 0) return slot / 3 - layout_.nodes;
   return analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
 }
 
@@ -55,11 +63,14 @@ const Matrix3<double>& ImplicitDofMap::directions(std::int32_t node) const {
 
 void ImplicitDofMap::find_roles(std::span<const std::int32_t> prescribed) {
   const auto bodies = static_cast<std::int32_t>(analysis_.model.rigid_bodies.size());
-  role_.assign(3 * (nodes_ + bodies), Role::free);
+  role_.assign(layout_.rotation_slot(bodies, 0), Role::free);
   const auto held = held_nodes(analysis_);
-  for (std::int32_t node = 0; node < nodes_; ++node) {
+  for (std::int32_t node = 0; node < layout_.nodes; ++node) {
     const bool moves = held[analysis_.domain.node_row[node]] != 0 || analysis_.reference_of(node) >= 0;
     if (analysis_.carrier(node) >= 0 || !moves) std::fill_n(role_.begin() + 3 * node, 3, Role::absent);
+    if (node >= layout_.turning) continue;
+    const bool turns = held[analysis_.domain.node_row[node]] == held_from_turning && analysis_.turning_body(node) < 0;
+    if (!turns) std::fill_n(role_.begin() + slot(node, 3), 3, Role::absent);
   }
   for (const auto slot : prescribed)
     if (role_[slot] == Role::free) role_[slot] = Role::prescribed;
@@ -85,9 +96,10 @@ void ImplicitDofMap::number() {
   // not mine.
   const auto rows = analysis_.model.nodes.size();
   const auto table_index = [&](std::int32_t slot) -> std::size_t {
-    return is_rotation(slot) ? 3 * rows + (slot - 3 * nodes_) : 3 * analysis_.domain.node_row[slot / 3] + slot % 3;
+    if (const auto body = body_of(slot); body >= 0) return 3 * (2 * rows + body) + slot % 3;
+    return 3 * ((is_rotation(slot) ? rows : 0) + analysis_.domain.node_row[node_of(slot)]) + slot % 3;
   };
-  const std::size_t table_size = 3 * (rows + analysis_.model.rigid_bodies.size());
+  const std::size_t table_size = 3 * (2 * rows + analysis_.model.rigid_bodies.size());
   std::vector<PetscInt> table(2 * table_size, 0);
   for (const auto slot : owned_slots_) table[table_index(slot)] = ++first[0];
   for (const auto slot : owned_free_slots_) table[table_size + table_index(slot)] = ++first[1];
@@ -120,12 +132,21 @@ NodeMotion ImplicitDofMap::motion(std::int32_t node) const {
   return result;
 }
 
-NodeMotion ImplicitDofMap::spin(std::int32_t body) const {
+NodeMotion ImplicitDofMap::spin(std::int32_t body) const { return spin_by(rotation_slot(body, 0)); }
+
+NodeMotion ImplicitDofMap::nodal_spin(std::int32_t node) const { return spin_by(first_spin_slot(node)); }
+
+std::int32_t ImplicitDofMap::first_spin_slot(std::int32_t node) const {
+  const auto body = analysis_.turning_body(node);
+  return body < 0 ? slot(node, 3) : rotation_slot(body, 0);
+}
+
+NodeMotion ImplicitDofMap::spin_by(std::int32_t first_slot) const {
   NodeMotion result;
-  const auto& axes = directions(analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node]);
+  const auto& axes = directions(node_of(first_slot));
   result.count = 3;
   for (int k = 0; k < 3; ++k) {
-    result.slots[k] = rotation_slot(body, k);
+    result.slots[k] = first_slot + k;
     result.direction[k] = row(axes, k);
   }
   return result;
@@ -133,7 +154,7 @@ NodeMotion ImplicitDofMap::spin(std::int32_t body) const {
 
 std::string ImplicitDofMap::describe(std::int32_t slot) const {
   const auto id = analysis_.model.nodes.id[analysis_.domain.node_row[node_of(slot)]];
-  return fmt::format("node {}, dof {}", id, is_rotation(slot) ? (slot - 3 * nodes_) % 3 + 4 : slot % 3 + 1);
+  return fmt::format("node {}, dof {}", id, slot % 3 + (is_rotation(slot) ? 4 : 1));
 }
 
 std::string ImplicitDofMap::describe_equation(PetscInt equation) const {
@@ -143,7 +164,7 @@ std::string ImplicitDofMap::describe_equation(PetscInt equation) const {
   if (mine) {
     const auto slot = owned_free_slots_[local];
     found = {analysis_.model.nodes.id[analysis_.domain.node_row[node_of(slot)]],
-             is_rotation(slot) ? (slot - 3 * nodes_) % 3 + 4 : slot % 3 + 1};
+             slot % 3 + (is_rotation(slot) ? 4 : 1)};
   }
   MPI_Allreduce(MPI_IN_PLACE, found.data(), 2, MPI_INT64_T, MPI_MAX, analysis_.communicator.handle());
   return fmt::format("node {}, dof {}", found[0], found[1]);

@@ -1,13 +1,18 @@
 // Which degrees of freedom the static solver solves for, and how nodes move with them.
 //
-// A slot is one displacement of a local node (3 * node + axis) or one rotation of a rigid body (3 * nodes + 3 * body +
-// axis), both counted in the node's *TRANSFORM directions. A slot is free (it has an equation), prescribed, or absent:
-// nodes carried by rigid bodies move with the six slots of the reference node, and nodes that nothing holds or pulls do
-// not move at all.
+// A slot is one displacement of a local node, one rotation of a node that turns, or one rotation of a rigid body, all counted in
+// the node's *TRANSFORM directions. A slot is free (it has an equation), prescribed, or absent: nodes carried by rigid bodies
+// move with the six slots of the reference node (tied ones turn with them too), and nodes that nothing holds or pulls do not
+// move at all.
+//
+// Rotations are finite: an increment of the three rotation slots is a spin s in global axes, R <- exp(s) R. Residual moments are
+// conjugate to such spins, and the tangent is the derivative of the residual by them at the present configuration; as spins do
+// not commute it is unsymmetric away from equilibrium, by half the cross product of the residual moment.
 #pragma once
 
 #include <petscsys.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -17,6 +22,16 @@
 #include "analysis.hpp"
 
 namespace balocco {
+
+/// Where the slots of a kind begin.
+struct SlotLayout {
+  std::int32_t nodes = 0, turning = 0;  // of the domain
+
+  explicit SlotLayout(const Domain& domain) : nodes(domain.size()), turning(domain.turning) {}
+  /// `dof` 0-2 of any node, 3-5 of nodes that turn.
+  std::int32_t slot(std::int32_t node, int dof) const { return dof < 3 ? 3 * node + dof : 3 * (nodes + node) + dof - 3; }
+  std::int32_t rotation_slot(std::int32_t body, int axis) const { return 3 * (nodes + turning + body) + axis; }
+};
 
 /// dx = sum over k < count of coefficient[3 * k ..] * dq[slots[k]]: motion of a node by at most six slots.
 struct NodeMotion {
@@ -33,11 +48,15 @@ class ImplicitDofMap {
   ImplicitDofMap(const Analysis& analysis, std::span<const std::int32_t> prescribed);
 
   std::int32_t slots() const { return static_cast<std::int32_t>(role_.size()); }
-  std::int32_t slot(std::int32_t node, int axis) const { return 3 * node + axis; }
-  std::int32_t rotation_slot(std::int32_t body, int axis) const { return 3 * nodes_ + 3 * body + axis; }
-  /// Node whose displacement or whose body's rotation a slot is.
+  std::int32_t slot(std::int32_t node, int dof) const { return layout_.slot(node, dof); }
+  std::int32_t rotation_slot(std::int32_t body, int axis) const { return layout_.rotation_slot(body, axis); }
+  /// Node whose displacement or rotation, or whose body's rotation a slot is.
   std::int32_t node_of(std::int32_t slot) const;
-  bool is_rotation(std::int32_t slot) const { return slot >= 3 * nodes_; }
+  bool is_rotation(std::int32_t slot) const { return slot >= 3 * layout_.nodes; }
+  /// Body whose rotation a slot is, or -1.
+  std::int32_t body_of(std::int32_t slot) const { return std::max(slot / 3 - layout_.nodes - layout_.turning, -1); }
+  /// First of the three slots that turn a node: its body's or its own.
+  std::int32_t first_spin_slot(std::int32_t node) const;
 
   Role role(std::int32_t slot) const { return role_[slot]; }
   bool owned(std::int32_t slot) const { return analysis_.domain.owned[node_of(slot)]; }
@@ -57,6 +76,8 @@ class ImplicitDofMap {
 
   NodeMotion motion(std::int32_t node) const;
   NodeMotion spin(std::int32_t body) const;
+  /// Spin of a node that turns: its body's or its own.
+  NodeMotion nodal_spin(std::int32_t node) const;
 
   /// "node 12, dof 3" of a slot, in the deck's numbers.
   std::string describe(std::int32_t slot) const;
@@ -66,9 +87,10 @@ class ImplicitDofMap {
  private:
   void find_roles(std::span<const std::int32_t> prescribed);
   void number();
+  NodeMotion spin_by(std::int32_t first_slot) const;
 
   const Analysis& analysis_;
-  std::int32_t nodes_ = 0;
+  SlotLayout layout_;
   std::vector<Role> role_;
   std::vector<PetscInt> global_slot_, equation_;
   std::vector<std::int32_t> owned_slots_, owned_free_slots_;

@@ -69,10 +69,14 @@ std::vector<PrescribedMotion> prescribed_motions(const Analysis& analysis, const
   for (std::size_t body = 0; body < analysis.current.rigid_bodies.size(); ++body)
     for (const auto& node : analysis.current.rigid_bodies[body].nodes)
       carrier[node.node] = static_cast<std::int32_t>(body);
-  const auto nodes = analysis.domain.size();
+  std::vector<bool> turns_with_body(static_cast<std::size_t>(analysis.model.nodes.size()));
+  for (const auto& body : analysis.current.rigid_bodies)
+    for (const auto& node : body.nodes) turns_with_body[node.node] = node.tie;
+  const SlotLayout layout(analysis.domain);
   std::vector<std::string> errors;
   for (const auto& condition : step.boundary) {
-    if (const auto entry = carrier.find(condition.node); entry != carrier.end()) {
+    const bool pinned_rotation = condition.dof >= 3 && !turns_with_body[condition.node];
+    if (const auto entry = carrier.find(condition.node); entry != carrier.end() && !pinned_rotation) {
       if (!condition.propagated)
         errors.push_back(
             fmt::format("{}: error: *BOUNDARY: node {} is carried by rigid body {}; prescribe the motion of its "
@@ -84,10 +88,10 @@ std::vector<PrescribedMotion> prescribed_motions(const Analysis& analysis, const
     const auto node = analysis.domain.local_node[condition.node];
     if (node < 0) continue;
     const auto body = analysis.reference_of(node);
-    if (condition.dof < 3)
-      conditions[3 * node + condition.dof] = &condition;
-    else if (body >= 0)
-      conditions[3 * nodes + 3 * body + condition.dof - 3] = &condition;
+    if (condition.dof >= 3 && body >= 0)
+      conditions[layout.rotation_slot(body, condition.dof - 3)] = &condition;
+    else if (condition.dof < 3 || node < layout.turning)
+      conditions[layout.slot(node, condition.dof)] = &condition;
   }
   if (!errors.empty()) throw InputError(std::move(errors));
   std::vector<PrescribedMotion> motions;

@@ -3,20 +3,18 @@
 
 #include <vector>
 
-#include "analysis.hpp"
+#include "implicit_dof_map.hpp"
 
 namespace balocco {
 
-/// A degree of freedom that a boundary condition moves. `slot` as in implicit_dof_map.hpp: 3 * local node + axis, or
-/// 3 * local nodes + 3 * body + axis for rotations of rigid bodies.
+/// A degree of freedom that a boundary condition moves. `slot` as in implicit_dof_map.hpp.
 struct PrescribedMotion {
   std::int32_t slot = -1;
   const BoundaryCondition* condition = nullptr;
   double start = 0.0;  // displacement or rotation when the step began
 };
 
-/// The step's boundary conditions on this rank's nodes; of several on one degree of freedom the last holds. Conditions
-/// on rotations of ordinary nodes do nothing (such nodes have none). Conditions that an earlier step put on a node
+/// The step's boundary conditions on this rank's nodes; of several on one degree of freedom the last holds. Conditions that an earlier step put on a node
 /// which a rigid body carries by now have no effect. @throws InputError if this step's own condition is on a carried
 /// node.
 std::vector<PrescribedMotion> prescribed_motions(const Analysis& analysis, const Step& step);

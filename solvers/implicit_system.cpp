@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "constraints/rigid_body.hpp"
+#include "elements/element_type.hpp"
+#include "math/rotation.hpp"
 
 namespace balocco {
 
@@ -50,6 +52,22 @@ void ImplicitSystem::find_levers() {
     std::fill_n(lever_.begin() + map_.rotation_slot(static_cast<std::int32_t>(body), 0), 3,
                 arm > 0.0 ? arm : model_size_);
   }
+  const auto& model = analysis_.model;
+  const auto& domain = analysis_.domain;
+  std::vector<double> longest(domain.turning, 0.0);
+  for (const auto& table : model.elements) {
+    if (!table.type->turns) continue;
+    const int count = table.type->nodes;
+    for (std::size_t first = 0; first < table.connectivity.size(); first += count)
+      for (int i = 0; i < count; ++i) {
+        const auto node = domain.local_node[table.connectivity[first + i]];
+        const auto &a = model.nodes.coordinates[table.connectivity[first + i]],
+                   &b = model.nodes.coordinates[table.connectivity[first + (i + 1) % count]];
+        if (node >= 0) longest[node] = std::max(longest[node], std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]));
+      }
+  }
+  for (std::int32_t node = 0; node < domain.turning; ++node)
+    std::fill_n(lever_.begin() + map_.slot(node, 3), 3, longest[node] > 0.0 ? longest[node] : model_size_);
 }
 
 void ImplicitSystem::find_stabilizing_masses() {
@@ -74,16 +92,30 @@ std::span<const NodeMotion> ImplicitSystem::motions_of(std::span<const std::int3
   return motions_;
 }
 
-bool ImplicitSystem::moves_as_one(std::span<const std::int32_t> nodes) const {
+std::span<const NodeMotion> ImplicitSystem::motions_of(const ElementGroup& group, std::int32_t element) {
+  if (group.freedoms_per_node() == 3) return motions_of(group.nodes(element));
+  motions_.clear();
+  for (const auto node : group.nodes(element)) {
+    motions_.push_back(map_.motion(node));
+    motions_.push_back(map_.nodal_spin(node));
+  }
+  return motions_;
+}
+
+bool ImplicitSystem::moves_as_one(const ElementGroup& group, std::int32_t element) const {
+  const auto nodes = group.nodes(element);
   const auto body = analysis_.carrier(nodes[0]);
-  return body >= 0 && std::ranges::all_of(nodes, [&](std::int32_t node) { return analysis_.carrier(node) == body; });
+  const bool turns = group.freedoms_per_node() == 6;
+  return body >= 0 && std::ranges::all_of(nodes, [&](std::int32_t node) {
+           return analysis_.carrier(node) == body && (!turns || analysis_.turning_body(node) == body);
+         });
 }
 
 /// Visits every block of the assembly once, in its order: see the functions that add values.
 void ImplicitSystem::record_pattern() {
   for (const auto& group : analysis_.element_groups)
     for (std::int32_t element = 0; element < group->size(); ++element)
-      if (!moves_as_one(group->nodes(element))) stiffness_.add(motions_of(group->nodes(element)), {});
+      if (!moves_as_one(*group, element)) stiffness_.add(motions_of(*group, element), {});
   for (const auto& load : step_.pressures)
     for (std::int32_t face = 0; face < analysis_.pressure_faces[load.surface]->size(); ++face)
       stiffness_.add(motions_of(analysis_.pressure_faces[load.surface]->nodes(face)), {});
@@ -124,13 +156,23 @@ void ImplicitSystem::move(std::span<const double> increment, double factor) {
     rotate(state.rigid_bodies[body], global(map_.rotation_slot(body, 0), node));
   }
   analysis_.place_rigid_nodes(state.position);
+  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node) {
+    const auto first = map_.first_spin_slot(node);
+    const auto spin = global(first, map_.node_of(first));
+    double* const q = &state.orientation[4 * node];
+    const auto now = turned(Quaternion<double>{q[0], q[1], q[2], q[3]}, {spin});
+    std::ranges::copy(now, q);
+    for (int i = 0; i < 3; ++i) state.rotation[4 * node + i] += spin[i];
+  }
 }
 
 double ImplicitSystem::displacement(std::int32_t slot) const {
   const auto node = map_.node_of(slot);
   Point vector{};
-  if (map_.is_rotation(slot)) {
-    vector = analysis_.current.rigid_bodies[analysis_.reference_of(node)].rotation;
+  if (const auto body = map_.body_of(slot); body >= 0) {
+    vector = analysis_.current.rigid_bodies[body].rotation;
+  } else if (map_.is_rotation(slot)) {
+    std::copy_n(&analysis_.current.rotation[4 * node], 3, vector.begin());
   } else {
     const auto& reference = analysis_.model.nodes.coordinates[analysis_.domain.node_row[node]];
     for (int i = 0; i < 3; ++i) vector[i] = analysis_.current.position[4 * node + i] - reference[i];
@@ -140,8 +182,31 @@ double ImplicitSystem::displacement(std::int32_t slot) const {
   return axes(axis, 0) * vector[0] + axes(axis, 1) * vector[1] + axes(axis, 2) * vector[2];
 }
 
+Point ImplicitSystem::moved(std::int32_t slot) const {
+  const auto& state = analysis_.current;
+  const auto node = map_.node_of(slot);
+  const auto body = map_.body_of(slot);
+  Point change{};
+  for (int i = 0; i < 3; ++i) {
+    if (body >= 0)
+      change[i] = state.rigid_bodies[body].rotation[i] - start_.bodies[body].rotation[i];
+    else if (map_.is_rotation(slot))
+      change[i] = state.rotation[4 * node + i] - start_.rotation[4 * node + i];
+    else
+      change[i] = state.position[4 * node + i] - start_.position[4 * node + i];
+  }
+  return change;
+}
+
+Configuration ImplicitSystem::configuration() const {
+  const auto& state = analysis_.current;
+  return {state.position, state.orientation, state.rotation, state.rigid_bodies};
+}
+
 void ImplicitSystem::restore(const Configuration& configuration) {
   analysis_.current.position = configuration.position;
+  analysis_.current.orientation = configuration.orientation;
+  analysis_.current.rotation = configuration.rotation;
   analysis_.current.rigid_bodies = configuration.bodies;
 }
 

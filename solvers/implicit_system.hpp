@@ -23,7 +23,7 @@ struct AssemblyRequest {
 
 /// Where the increment began: what a failed trial returns to.
 struct Configuration {
-  std::vector<double> position;
+  std::vector<double> position, orientation, rotation;
   std::vector<RigidBodyState> bodies;
 };
 
@@ -56,7 +56,9 @@ class ImplicitSystem {
   void move(std::span<const double> increment, double factor);
   /// Displacement or rotation of a slot from the reference configuration.
   double displacement(std::int32_t slot) const;
-  Configuration configuration() const { return {analysis_.current.position, analysis_.current.rigid_bodies}; }
+  /// Displacement or rotation, over the increment so far, of what a slot belongs to; global directions.
+  Point moved(std::int32_t slot) const;
+  Configuration configuration() const;
   void restore(const Configuration& configuration);
 
   /// Marks the current positions as the start of an increment, and forgets trial histories.
@@ -76,7 +78,7 @@ class ImplicitSystem {
   /// squared.
   double stabilizing_mass(std::int32_t slot) const { return mass_[slot]; }
   /// What turns a slot's rotation into a length: the longest arm of the body (the size of the model for bodies without
-  /// nodes); 1 for displacements.
+  /// nodes), of a node the longest edge of the elements that turn it; 1 for displacements.
   double lever(std::int32_t slot) const { return lever_[slot]; }
   double model_size() const { return model_size_; }
 
@@ -95,7 +97,9 @@ class ImplicitSystem {
   void find_levers();
   void find_stabilizing_masses();
   std::span<const NodeMotion> motions_of(std::span<const std::int32_t> nodes);
-  bool moves_as_one(std::span<const std::int32_t> nodes) const;
+  /// Displacements of an element's nodes, each followed by its spin where they turn.
+  std::span<const NodeMotion> motions_of(const ElementGroup& group, std::int32_t element);
+  bool moves_as_one(const ElementGroup& group, std::int32_t element) const;
 
   Analysis& analysis_;
   const Step& step_;
@@ -113,7 +117,8 @@ class ImplicitSystem {
   std::int64_t inverted_element_ = -1;
   std::string trouble_;
   std::vector<NodeMotion> motions_;                                        // scratch
-  std::vector<double> old_history_, new_history_, force_, block_, nodal_;  // scratch
+  std::vector<double> old_history_, new_history_, force_, block_;  // scratch
+  std::vector<double> nodal_, nodal_moment_;                       // scratch
 };
 
 }  // namespace balocco

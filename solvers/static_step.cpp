@@ -322,23 +322,15 @@ void StaticStep::find_applied_forces(const IncrementGoal& goal, std::vector<doub
 /// Work of the applied forces over the increment, by the trapezoidal rule, and what stabilisation dissipated.
 void StaticStep::add_work(const IncrementGoal& goal) {
   const auto& map = system_.map();
-  const auto& state = analysis_.current;
-  const auto& start = system_.start_of_increment();
   std::vector<double> applied;
   find_applied_forces(goal, applied);
   for (std::int32_t slot = 0; slot < map.slots(); ++slot) {
     const auto node = map.node_of(slot);
     const auto& axes = map.directions(node);
     const bool absent = map.role(slot) == ImplicitDofMap::Role::absent;
-    double moved = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      double component = state.position[4 * node + i] - start.position[4 * node + i];
-      if (map.is_rotation(slot)) {
-        const auto body = analysis_.reference_of(node);
-        component = state.rigid_bodies[body].rotation[i] - start.bodies[body].rotation[i];
-      }
-      moved += (absent ? (i == slot % 3 ? 1.0 : 0.0) : axes(slot % 3, i)) * component;
-    }
+    const auto motion = system_.moved(slot);
+    double moved = absent ? motion[slot % 3] : 0.0;
+    for (int i = 0; i < 3 && !absent; ++i) moved += axes(slot % 3, i) * motion[i];
     analysis_.current.nodal_work[node].external += 0.5 * (applied_[slot] + applied[slot]) * moved;
     if (!absent && goal.damping > 0.0)
       analysis_.current.nodal_work[node].damping +=
@@ -351,6 +343,8 @@ void StaticStep::store_reactions() {
   const auto& map = system_.map();
   std::ranges::fill(analysis_.reaction, 0.0);
   std::ranges::fill(analysis_.acceleration, 0.0);
+  std::ranges::fill(analysis_.reaction_moment, 0.0);
+  std::ranges::fill(analysis_.angular_acceleration, 0.0);
   std::ranges::fill(analysis_.body_angular_acceleration, Point{});
   std::ranges::fill(analysis_.body_reaction, std::array<double, 6>{});
   for (std::int32_t slot = 0; slot < map.slots(); ++slot) {
@@ -360,6 +354,7 @@ void StaticStep::store_reactions() {
     for (int i = 0; i < 3; ++i) {
       const double component = map.directions(node)(slot % 3, i) * residual_[slot];
       if (!map.is_rotation(slot)) analysis_.reaction[4 * node + i] += component;
+      if (map.is_rotation(slot) && body < 0) analysis_.reaction_moment[4 * node + i] += component;
       if (body >= 0) analysis_.body_reaction[body][map.is_rotation(slot) ? 3 + i : i] += component;
     }
   }

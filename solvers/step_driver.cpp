@@ -23,17 +23,17 @@ void add_rounded(double* force, const Point& addend) {
   for (int i = 0; i < 3; ++i) force[i] += rounded(addend[i], force[3]);
 }
 
-void add_concentrated_load(const Analysis& analysis, const ConcentratedLoad& load, double magnitude, double* force,
-                           std::vector<Point>& moments) {
+void add_concentrated_load(const Analysis& analysis, const ConcentratedLoad& load, double magnitude,
+                           const NodalForces& forces, std::vector<Point>& moments) {
   const auto node = analysis.domain.local_node[load.node];
   if (node < 0) return;
   auto vector = analysis.directions.direction(load.node, load.dof % 3);
   for (double& component : vector) component *= magnitude;
-  if (load.dof >= 3) {
-    const auto body = analysis.reference_of(node);
+  const auto body = analysis.reference_of(node);
+  if (load.dof >= 3 && body >= 0) {
     for (int i = 0; i < 3; ++i) moments[body][i] += vector[i];
   } else if (analysis.domain.owned[node]) {
-    add_rounded(force + 4 * node, vector);
+    add_rounded((load.dof < 3 ? forces.force : forces.moment) + 4 * static_cast<std::ptrdiff_t>(node), vector);
   }
 }
 
@@ -49,14 +49,14 @@ void add_gravity(const Analysis& analysis, const GravityLoad& load, double magni
 }  // namespace
 
 void add_external_forces(const Analysis& analysis, const Step& step, double step_time, double total_time,
-                         const double* position, double* force, std::vector<Point>& moments) {
+                         const double* position, const NodalForces& forces, std::vector<Point>& moments) {
   const auto magnitude_of = [&](const auto& load) {
     return load_magnitude(analysis.model, step, load.previous, load.magnitude, load.amplitude, step_time, total_time);
   };
-  for (const auto& load : step.concentrated_loads) add_concentrated_load(analysis, load, magnitude_of(load), force, moments);
+  for (const auto& load : step.concentrated_loads) add_concentrated_load(analysis, load, magnitude_of(load), forces, moments);
   for (const auto& load : step.pressures)
-    analysis.pressure_faces[load.surface]->add_forces(magnitude_of(load), position, force);
-  for (const auto& load : step.gravity) add_gravity(analysis, load, magnitude_of(load), force);
+    analysis.pressure_faces[load.surface]->add_forces(magnitude_of(load), position, forces.force);
+  for (const auto& load : step.gravity) add_gravity(analysis, load, magnitude_of(load), forces.force);
 }
 
 }  // namespace balocco

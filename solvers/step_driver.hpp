@@ -14,9 +14,9 @@ double amplitude_factor(const Model& model, const Step& step, std::int32_t ampli
 double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,
                       double step_time, double total_time);
 
-/// Adds concentrated loads (owners only), pressure and gravity at `step_time` to `force` (4 a node, rounded), and moments on
+/// Adds concentrated loads and moments (owners only), pressure and gravity at `step_time` to `forces` (rounded), and moments on
 /// reference nodes to `moments` (per rigid body; every rank computes the same).
 void add_external_forces(const Analysis& analysis, const Step& step, double step_time, double total_time,
-                         const double* position, double* force, std::vector<Point>& moments);
+                         const double* position, const NodalForces& forces, std::vector<Point>& moments);
 
 }  // namespace balocco

@@ -9,6 +9,7 @@
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
+#include "elements/turning_nodes.hpp"
 
 namespace balocco::deck {
 
@@ -41,9 +42,20 @@ double scaled(const Builder& builder, std::int32_t amplitude, double magnitude) 
   return builder.absolute_amplitudes.contains(amplitude) ? 1.0 : magnitude;
 }
 
-bool turns(const Builder& builder, std::int32_t node) {
-  return builder.body_of_reference.contains(node);
-}
+/// Which nodes have rotations; found out when first asked.
+class Rotations {
+ public:
+  explicit Rotations(const Builder& builder) : builder_(builder) {}
+
+  bool has(std::int32_t node) {
+    if (turning_.empty()) turning_ = turning_nodes(builder_.model);
+    return turning_[node] || builder_.body_of_reference.contains(node);
+  }
+
+ private:
+  const Builder& builder_;
+  std::vector<bool> turning_;
+};
 
 /// Degrees of freedom and magnitude of a data line.
 struct Freedoms {
@@ -113,7 +125,7 @@ BoundaryCondition::Kind kind_of(const Block& block) {
 }
 
 void read_boundary_line(Builder& builder, const Block& block, Row& row, BoundaryCondition condition,
-                        bool& told_rotation) {
+                        Rotations& rotations, bool& told_rotation) {
   if (!row.has(1)) return row.error("field 2 is missing: degree of freedom or named condition; add it");
   std::vector<std::int32_t> nodes;
   const bool known = builder.nodes_of(row.text(0), block, row.location(), nodes);
@@ -128,11 +140,11 @@ void read_boundary_line(Builder& builder, const Block& block, Row& row, Boundary
   condition.line = row.location().line;
   for (const auto node : nodes) {
     for (const int dof : freedoms->dofs) {
-      if (dof >= 3 && !turns(builder, node)) {
+      if (dof >= 3 && !rotations.has(node)) {
         if (!freedoms->named && freedoms->magnitude != 0.0) {
           return row.error(fmt::format(
-              "node {} has no rotation to prescribe; only reference nodes of rigid bodies have degrees of freedom "
-              "4 to 6",
+              "node {} has no rotation to prescribe; nodes of shells, beams and ROTARYI elements and reference nodes of rigid "
+              "bodies have degrees of freedom 4 to 6",
               builder.model.nodes.id[node]));
         }
         if (!freedoms->named && !told_rotation) {
@@ -163,10 +175,11 @@ void read_boundary(Builder& builder, const Block& block) {
   condition.kind = kind_of(block);
   condition.amplitude = *amplitude;
   condition.fixed = block.has("FIXED");
+  Rotations rotations(builder);
   bool told_rotation = false;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
-    read_boundary_line(builder, block, row, condition, told_rotation);
+    read_boundary_line(builder, block, row, condition, rotations, told_rotation);
   }
 }
 
@@ -189,6 +202,7 @@ void read_concentrated(Builder& builder, const Block& block) {
   }
   const auto amplitude = amplitude_of(builder, block);
   if (!amplitude) return;
+  Rotations rotations(builder);
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     std::vector<std::int32_t> nodes;
@@ -199,8 +213,9 @@ void read_concentrated(Builder& builder, const Block& block) {
       row.error(fmt::format("degree of freedom {} does not exist; give 1 to 6", dof));
     if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, nodes)) continue;
     for (const auto node : nodes) {
-      if (dof > 3 && !turns(builder, node)) {
-        row.error(fmt::format("node {} cannot take a moment; only reference nodes of rigid bodies can",
+      if (dof > 3 && !rotations.has(node)) {
+        row.error(fmt::format("node {} cannot take a moment; nodes of shells, beams and ROTARYI elements and reference nodes of rigid "
+                              "bodies can",
                               builder.model.nodes.id[node]));
         break;
       }

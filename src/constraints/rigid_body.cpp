@@ -8,26 +8,12 @@
 
 #include "elements/element_group.hpp"
 #include "elements/element_type.hpp"
+#include "math/rotation.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
 
 namespace {
-
-using Quaternion = std::array<double, 4>;  // w, x, y, z
-
-Quaternion product(const Quaternion& a, const Quaternion& b) {
-  return {a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3], a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-          a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1], a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
-}
-
-/// The quaternion of the rotation exp(spin x).
-Quaternion exponential(const Point& spin) {
-  const double angle = std::sqrt(spin[0] * spin[0] + spin[1] * spin[1] + spin[2] * spin[2]);
-  // Where angle^2 vanishes against 1, sin(angle / 2) / angle is 1/2 to the last bit.
-  const double factor = angle > 1e-9 ? std::sin(0.5 * angle) / angle : 0.5;
-  return {std::cos(0.5 * angle), factor * spin[0], factor * spin[1], factor * spin[2]};
-}
 
 /// Mass and first moment of mass, summed in deck order.
 struct MassMoment {
@@ -99,12 +85,7 @@ auto find_node(RigidBodyState& body, std::int32_t row) {
 
 }  // namespace
 
-Matrix3<double> rotation_matrix(const RigidBodyState& body) {
-  const auto [w, x, y, z] = body.orientation;
-  return {{1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y),  //
-           2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x),  //
-           2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)}};
-}
+Matrix3<double> rotation_matrix(const RigidBodyState& body) { return rotation_matrix(body.orientation); }
 
 Point rigid_arm(const Matrix3<double>& rotation, const RigidNode& node) {
   const Vector3<double> arm = rotation * Vector3<double>{node.offset};
@@ -112,11 +93,7 @@ Point rigid_arm(const Matrix3<double>& rotation, const RigidNode& node) {
 }
 
 void rotate(RigidBodyState& body, const Point& spin) {
-  Quaternion turned = product(exponential(spin), body.orientation);
-  const double norm =
-      std::sqrt(turned[0] * turned[0] + turned[1] * turned[1] + turned[2] * turned[2] + turned[3] * turned[3]);
-  for (double& component : turned) component /= norm;
-  body.orientation = turned;
+  body.orientation = turned(body.orientation, {spin});
   for (int i = 0; i < 3; ++i) body.rotation[i] += spin[i];
 }
 

@@ -149,7 +149,10 @@ void Summary::add_group(const Part& part, MassProperties& properties) {
   for (std::size_t node = 0; node <= model_.nodes.id.size(); ++node) force[4 * node + 3] = rounding_constant(1.0);
   std::vector<double> history(static_cast<std::size_t>(group->history_size()) * group->padded_size());
   group->initialize_history(history);
-  const ExplicitCycle cycle{{position.data(), velocity.data()}, {force.data()}, 0.0, 0.06, 1.2};
+  std::vector<double> orientation(position.size()), moment(force);
+  for (std::size_t i = 0; i < orientation.size(); i += 4) orientation[i] = 1.0;
+  const ExplicitCycle cycle{
+      {position.data(), velocity.data(), orientation.data(), velocity.data()}, {force.data(), moment.data()}, 0.0, 0.06, 1.2};
   StableIncrement stable = group->add_forces(Portion::interface, cycle, history);
   stable.merge(group->add_forces(Portion::interior, cycle, history));
   if (stable.element >= 0 && (critical_element_ < 0 || stable.increment < stable_increment_)) {

@@ -51,12 +51,21 @@ struct State {
 
   std::vector<double> position;     // 4 a node, one scratch node more than the domain has
   std::vector<double> velocity;     // 4 a node; explicit: in the middle of the increment to come
+  // Nodes that turn, the first Domain::turning, have 4 values each of these:
+  std::vector<double> orientation;       // unit quaternion w x y z of the rotation from the reference configuration
+  std::vector<double> angular_velocity;  // global directions; explicit: in the middle of the increment to come
+  std::vector<double> rotation;          // accumulated rotation vector UR (may exceed a turn)
   std::vector<NodalWork> nodal_work;
   std::vector<std::vector<double>> element_history;       // per element group
   std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
   std::vector<RigidBodyState> rigid_bodies;
 
-  NodalMotion motion() const { return {.position = position.data(), .velocity = velocity.data()}; }
+  NodalMotion motion() const {
+    return {.position = position.data(),
+            .velocity = velocity.data(),
+            .orientation = orientation.data(),
+            .angular_velocity = angular_velocity.data()};
+  }
 };
 
 }  // namespace balocco

@@ -1,5 +1,5 @@
 # Explicit dynamics: small decks with closed-form answers, on one and on two ranks.
-foreach(case truss_stability rod_impact free_flight spun_block pendulum dzhanibekov skid sliding_block chattering_block resting_pair resting_block driven_block)
+foreach(case truss_stability rod_impact free_flight spun_block pendulum dzhanibekov dzhanibekov_node skid sliding_block chattering_block resting_pair resting_block driven_block)
   foreach(ranks 1 2)
     add_test(NAME explicit_${case}_on_${ranks}
              COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/explicit_cases.py ${case} $<TARGET_FILE:balocco> ${ranks}

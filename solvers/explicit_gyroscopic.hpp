@@ -1,0 +1,42 @@
+// Nodes with a ROTARYI tensor in an explicit step: their spins obey Euler's equations.
+#pragma once
+
+#include <Eigen/Dense>
+#include <array>
+#include <vector>
+
+#include "explicit_motion.hpp"
+#include "math/tensor.hpp"
+
+namespace balocco {
+
+/// T = I alpha + w x (I w), with I = R (tensor + J 1) R^T: the tensors of the node's ROTARYI elements, which turn with it, and the
+/// inertia J that its elements give it. Restricted to the free degrees of freedom 4-6; the others give the reactions.
+class GyroscopicNodes {
+ public:
+  /// Nodes that bodies turn are left to the bodies. @throws InputError where such a node is not the reference node, and where
+  /// a free rotation has no inertia.
+  GyroscopicNodes(const Analysis& analysis, const Step& step);
+
+  bool contains(std::int32_t node) const;
+  /// Angular accelerations under `moment` (4 a node), reactions and their work; then the spins over the next increment.
+  void accelerate(Analysis& analysis, const Step& step, const Instant& instant, const double* moment);
+  /// Adds reactions, angular accelerations and work ahead to the analysis' arrays for output.
+  void add_to_output(Analysis& analysis, const Instant& instant) const;
+
+ private:
+  struct Node {
+    std::int32_t node = -1;                              // local
+    std::int32_t section = -1;                           // row of Model::sections, for messages
+    Matrix3<double> tensor{};                            // reference frame
+    Matrix3<double> axes = Matrix3<double>::identity();  // rows: directions of the degrees of freedom
+    std::array<const BoundaryCondition*, 3> condition{};
+    Vector3<double> acceleration{}, reaction{};          // along the degrees of freedom, at the instant
+  };
+  void solve(Node& node, const Analysis& analysis, const Vector3<double>& torque, const Vector3<double>& old_spin,
+             const std::array<double, 3>& wanted, const Instant& instant) const;
+
+  std::vector<Node> nodes_;
+};
+
+}  // namespace balocco
