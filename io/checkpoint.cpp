@@ -18,7 +18,7 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t format_version = 2;
 constexpr int body_values = 16;    // position 3, orientation 4, velocity 3, angular velocity 3, rotation 3
 constexpr int contact_values = 7;  // multiplier, closed, anchor 3, slip, frictional dissipation
 constexpr int work_values = 2;     // external, damping
@@ -206,6 +206,7 @@ void write_header(const std::string& path, const Model& model, const State& stat
   file.set_attribute("/", "increment", step_finished ? std::int64_t{0} : state.increment);
   file.set_attribute("/", "dynamic", static_cast<std::int64_t>(state.dynamic));
   file.set_attribute("/", "time_increment", state.time_increment);
+  file.set_attribute("/", "easy", static_cast<std::int64_t>(state.easy));
   file.set_attribute("/", "format", std::string("balocco checkpoint"));
   file.close();
 }
@@ -227,6 +228,7 @@ void read_header(const Hdf5File& file, const std::string& path, const Model& mod
   state.increment = file.integer_attribute("/", "increment");
   state.dynamic = file.integer_attribute("/", "dynamic") != 0;
   state.time_increment = file.number_attribute("/", "time_increment");
+  state.easy = file.integer_attribute("/", "easy") != 0;
 }
 
 void read_bodies(const Hdf5File& file, State& state) {

@@ -21,8 +21,6 @@ constexpr double seconds_between_polls = 0.2;      // how soon a signal or JOB.c
 constexpr double seconds_between_flushes = 30.0;   // how much history a kill may cost
 constexpr std::int32_t status_lines = 100;         // per explicit step
 
-bool is_explicit(const Step& step) { return step.procedure == Step::Procedure::explicit_dynamics; }
-
 /// What is due in the step that runs.
 struct StepPlan {
   std::vector<Schedule> fields;  // per Step::field_outputs
@@ -105,7 +103,7 @@ void JobObserver::Implementation::start(const ResultSource& running, std::int32_
                         FrameWriter(model, communicator, domain, running.groups())});
   for (const std::string& complaint : complaints) status->log(complaint);
   for (const FieldOutput& output : current().field_outputs) plan->fields.push_back(Schedule::of(output, current()));
-  if (is_explicit(current())) plan->status = Schedule::equal_intervals(status_lines, duration);
+  if (!current().has_few_increments()) plan->status = Schedule::equal_intervals(status_lines, duration);
 
   status->start_step(step, state, running.energies().total);
   last = Progress{};
@@ -156,7 +154,7 @@ void JobObserver::Implementation::look_at_clock(const Progress& progress) {
 }
 
 void JobObserver::Implementation::write_status(const ResultSource& running, const Progress& progress, const Requests& requests) {
-  if (!is_explicit(current())) {
+  if (current().has_few_increments()) {
     const EnergyBalance energies = running.energies();
     status->static_line(progress, energies.work, energies.internal);
   } else if (plan->status->due(progress.step_time, progress.increment, progress.step_finished) || requests.info) {

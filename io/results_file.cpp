@@ -14,10 +14,6 @@ namespace balocco {
 
 namespace {
 
-const char* procedure_name(const Step& step) {
-  return step.procedure == Step::Procedure::static_analysis ? "static" : "explicit dynamics";
-}
-
 ResultsIndex index_of(const Model& model) {
   ResultsIndex index;
   index.nodes = static_cast<hsize_t>(model.nodes.size());
@@ -94,7 +90,7 @@ void ResultsFile::start_step(std::int32_t step, double total_time) {
     if (!file.exists(group)) {
       file.create_group(group);
       file.set_attribute(group, "name", model_->steps[step].name);
-      file.set_attribute(group, "procedure", std::string(procedure_name(model_->steps[step])));
+      file.set_attribute(group, "procedure", std::string(model_->steps[step].procedure_name()));
       file.set_attribute(group, "time_start", total_time);
     }
     file.set_attribute(group, "time_end", total_time);

@@ -45,7 +45,7 @@ Schedule Schedule::of(const FieldOutput& output, const Step& step) {
 Schedule Schedule::of(const HistoryOutput& output, const Step& step) {
   if (output.time_interval) return every(*output.time_interval, step.duration());
   if (output.frequency) return every_increments(*output.frequency, step.duration());
-  if (step.procedure == Step::Procedure::explicit_dynamics) return equal_intervals(200, step.duration());
+  if (!step.has_few_increments()) return equal_intervals(200, step.duration());
   return every_increments(1, step.duration());
 }
 

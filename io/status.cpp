@@ -34,8 +34,6 @@ bool watched() {
   return terminal;
 }
 
-bool is_static(const Step& step) { return step.procedure == Step::Procedure::static_analysis; }
-
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -77,11 +75,11 @@ void Status::start_step(std::int32_t step, const State& state, double total_ener
   step_begin_increment_ = state.increment;
   step_begin_energy_ = total_energy;
   const Step& what = model_->steps[step];
-  shown_twentieth_ = static_cast<int>(20.0 * state.step_time / what.duration() + 1e-9);
+  shown_twentieth_ = what.duration() > 0.0 ? static_cast<int>(20.0 * state.step_time / what.duration() + 1e-9) : 0;
   if (!root_) return;
-  line(status_, fmt::format("\nStep {} {}: {}, {:g} time units", step + 1, what.name, is_static(what) ? "static" : "explicit dynamics",
+  line(status_, fmt::format("\nStep {} {}: {}, {:g} time units", step + 1, what.name, what.procedure_name(),
                             what.duration()));
-  if (is_static(what)) {
+  if (what.has_few_increments()) {
     line(status_, fmt::format("{:>6} {:>6} {:>13} {:>13} {:>13} {:>11} {:>13} {:>13} {:>10}", "INC", "ITERS", "STEP TIME",
                               "TOTAL TIME", "TIME INC", "RESIDUAL", "ALLWK", "ALLIE", "WALL S"));
   } else {
@@ -97,7 +95,7 @@ Status::Outlook Status::outlook(const Progress& progress) const {
   const double done = progress.step_time - step_begin_time_;
   const auto increments = static_cast<double>(progress.increment - step_begin_increment_);
   Outlook outlook;
-  outlook.fraction = progress.step_time / duration;
+  outlook.fraction = duration > 0.0 ? progress.step_time / duration : 1.0;
   outlook.remaining = done > 0.0 ? std::max(0.0, elapsed * (duration - progress.step_time) / done) : 0.0;
   outlook.elements_per_second = elapsed > 0.0 ? static_cast<double>(element_count_) * increments / elapsed : 0.0;
   return outlook;
@@ -139,7 +137,7 @@ void Status::show(const Progress& progress, bool now) {
   std::string text = fmt::format("Step {} {}: {:3.0f} %, increment {}, time {:.6g} of {:g}, dt {:.4g}", step_ + 1, step.name,
                                  100.0 * view.fraction, progress.increment, progress.step_time, step.duration(),
                                  progress.time_increment);
-  if (is_static(step)) {
+  if (step.has_few_increments()) {
     text += fmt::format(", {} iterations", progress.iterations);
   } else {
     text += fmt::format(", {:.3g} elements/s, {} left", view.elements_per_second, duration_text(view.remaining));

@@ -53,4 +53,8 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
   return Outcome::finished;
 }
 
+namespace {
+const RegisterProcedure<ExplicitProcedure> registered(run_explicit_step);
+}  // namespace
+
 }  // namespace balocco

@@ -43,6 +43,7 @@ const Step& started(Analysis& analysis, const Step& step) {
 ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& observer)
     : analysis_(analysis),
       step_(started(analysis, step)),
+      procedure_(std::get<ExplicitProcedure>(step.procedure)),
       observer_(observer),
       total_time_at_start_(time_before(analysis.model, analysis.current.step)),
       scale_(force_scale(analysis, step)),
@@ -136,8 +137,9 @@ void ExplicitStep::prepare_start() {
   auto& state = analysis_.current;
   state.time_increment = 0.0;
   last_increment_ = next_increment_ = 0.0;
+  const auto before = analysis_.model.general_step_before(state.step);
   const bool follows_static =
-      state.step == 0 || analysis_.model.steps[state.step - 1].procedure == Step::Procedure::static_analysis;
+      before < 0 || !std::holds_alternative<ExplicitProcedure>(analysis_.model.steps[before].procedure);
   if (follows_static) {
     std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
     std::fill(state.angular_velocity.begin(), state.angular_velocity.end(), 0.0);
@@ -194,8 +196,8 @@ void ExplicitStep::add_elements(Portion portion) {
   const ExplicitCycle cycle{.motion = state.motion(),
                             .forces = forces(),
                             .increment = last_increment_,
-                            .linear_bulk_viscosity = step_.explicit_procedure.linear_bulk_viscosity,
-                            .quadratic_bulk_viscosity = step_.explicit_procedure.quadratic_bulk_viscosity};
+                            .linear_bulk_viscosity = procedure_.linear_bulk_viscosity,
+                            .quadratic_bulk_viscosity = procedure_.quadratic_bulk_viscosity};
   for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index) {
     const auto& group = *analysis_.element_groups[index];
     const auto stable = group.add_forces(portion, cycle, state.element_history[index]);

@@ -70,6 +70,7 @@ class ExplicitStep {
 
   Analysis& analysis_;
   const Step& step_;
+  const ExplicitProcedure& procedure_;
   Observer& observer_;
   double total_time_at_start_ = 0.0;  // of the step
   ForceScale scale_;

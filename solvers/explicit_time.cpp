@@ -13,9 +13,9 @@ constexpr double landing_tolerance = 1e-9;  // of an increment: rounding of accu
 }  // namespace
 
 TimeControl::TimeControl(const Analysis& analysis, const Step& step)
-    : duration_(step.explicit_procedure.duration),
-      scale_factor_(step.explicit_procedure.scale_factor),
-      fixed_(step.explicit_procedure.fixed_increment.value_or(0.0)) {
+    : duration_(step.duration()),
+      scale_factor_(std::get<ExplicitProcedure>(step.procedure).scale_factor),
+      fixed_(std::get<ExplicitProcedure>(step.procedure).fixed_increment.value_or(0.0)) {
   double largest = 0.0;
   for (const auto pair : step.active_contact_pairs)
     largest = std::max(largest, analysis.contacts[pair].largest_spring_frequency_squared(analysis.nodal_mass));

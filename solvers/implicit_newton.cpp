@@ -30,9 +30,15 @@ std::string mechanism_message(const Step& step, const std::string& where) {
       step.name, where);
 }
 
-ImplicitNewton::ImplicitNewton(Analysis& analysis, const Step& step, ImplicitSystem& system, ImplicitLinearSolver& solver,
-                           const ImplicitDrive& drive, Observer& observer)
-    : analysis_(analysis), step_(step), system_(system), solver_(solver), drive_(drive), observer_(observer) {
+ImplicitNewton::ImplicitNewton(Analysis& analysis, const Step& step, ImplicitSystem& system,
+                               ImplicitLinearSolver& solver, const ImplicitDrive& drive, Observer& observer)
+    : analysis_(analysis),
+      step_(step),
+      controls_(std::get<StaticProcedure>(step.procedure).controls),
+      system_(system),
+      solver_(solver),
+      drive_(drive),
+      observer_(observer) {
   const auto& map = system.map();
   remaining_.resize(map.slots());
   out_of_balance_.resize(map.slots());
@@ -158,9 +164,9 @@ bool ImplicitNewton::accepted(const IncrementGoal& goal, const Norms& now, const
   // What is left of a structure that has come to rest without any force is judged by the forces it had.
   const double reference = std::max(now.reference, 1e-6 * greatest_reference_);
   if (goal.ends_step) return now.residual <= final_tolerance * reference || resolved || at_round_off(now);
-  const double tolerance = step_.controls.residual_tolerance * system_.average_force();
+  const double tolerance = controls_.residual_tolerance * system_.average_force();
   if (now.largest > tolerance) return resolved;
-  const bool still = largest_correction_ <= step_.controls.correction_tolerance * largest_increment_;
+  const bool still = largest_correction_ <= controls_.correction_tolerance * largest_increment_;
   return now.largest <= 1e-3 * tolerance || (still && result.iterations > 0);
 }
 
@@ -178,7 +184,7 @@ bool ImplicitNewton::gives_up(const IncrementGoal& goal, const Norms& now, Newto
   const auto n = history_.size();
   const bool grows =
       n >= 4 && history_[n - 1] > history_[n - 2] && history_[n - 2] > history_[n - 3] && system_.changed_points() == 0;
-  const bool too_many = counted >= step_.controls.maximum_iterations + (goal.ends_step ? 4 : 0);
+  const bool too_many = counted >= controls_.maximum_iterations + (goal.ends_step ? 4 : 0);
   if (grows && counted > 4 && history_.back() > 10.0 * final_tolerance * now.reference)
     result.reason = fmt::format("the residual grows, most at {}", worst_dof());
   else if (too_many)
@@ -290,7 +296,7 @@ bool ImplicitNewton::search_line(const IncrementGoal& goal) {
     const auto after = work();
     const double ratio = before[0] != 0.0 ? after[0] / before[0] : 0.0;
     const bool better = after[1] <= before[1];
-    if (step_.controls.line_search ? std::abs(ratio) <= 0.25 : (better || (!descends_ && std::abs(ratio) <= 0.9))) break;
+    if (controls_.line_search ? std::abs(ratio) <= 0.25 : (better || (!descends_ && std::abs(ratio) <= 0.9))) break;
     if (trial + 2 >= most_trials) break;
     // The root of the straight line through the works at the origin and here, if it lies between.
     factor *= ratio < 0.0 ? std::clamp(1.0 / (1.0 - ratio), 0.1, 0.7) : 0.5;

@@ -40,8 +40,9 @@ struct NewtonResult {
 
 class ImplicitNewton {
  public:
+  /// `step` is static.
   ImplicitNewton(Analysis& analysis, const Step& step, ImplicitSystem& system, ImplicitLinearSolver& solver,
-               const ImplicitDrive& drive, Observer& observer);
+                 const ImplicitDrive& drive, Observer& observer);
 
   /// Finds equilibrium at the goal's time from the start of the increment. If the stiffness is singular at the start of
   /// the step, iterations are held back by an artificial stiffness that fades with the residual: unstressed membranes
@@ -83,6 +84,7 @@ class ImplicitNewton {
 
   Analysis& analysis_;
   const Step& step_;
+  const ImplicitControls& controls_;
   ImplicitSystem& system_;
   ImplicitLinearSolver& solver_;
   const ImplicitDrive& drive_;

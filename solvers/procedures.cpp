@@ -17,6 +17,11 @@ std::size_t end_of_steps(const Model& model, const std::string& last) {
 
 }  // namespace
 
+std::array<RunStep, std::variant_size_v<Procedure>>& procedure_runners() {
+  static std::array<RunStep, std::variant_size_v<Procedure>> runners{};
+  return runners;
+}
+
 Outcome run_steps(Analysis& analysis, Observer& observer, const std::string& last) {
   const auto& steps = analysis.model.steps;
   auto& state = analysis.current;
@@ -25,8 +30,7 @@ Outcome run_steps(Analysis& analysis, Observer& observer, const std::string& las
     // A checkpoint written when a step ended stands at its end: the next step is due.
     const bool done = state.increment > 0 && state.step_time >= step.duration();
     if (!done) {
-      const bool is_static = step.procedure == Step::Procedure::static_analysis;
-      const auto outcome = is_static ? run_static_step(analysis, step, observer) : run_explicit_step(analysis, step, observer);
+      const auto outcome = procedure_runners()[step.procedure.index()](analysis, step, observer);
       if (outcome == Outcome::stopped) return outcome;
     }
     ++state.step;

@@ -1,7 +1,9 @@
 // The procedures: each advances the state of an analysis through one step, from wherever in the step the state stands.
 #pragma once
 
+#include <array>
 #include <string>
+#include <variant>
 
 #include "analysis.hpp"
 #include "model/results.hpp"
@@ -10,11 +12,23 @@ namespace balocco {
 
 enum class Outcome { finished, stopped };
 
+/// Advances the state through one step of a procedure. Collective.
+using RunStep = Outcome (*)(Analysis& analysis, const Step& step, Observer& observer);
+
 /// Newton's method with automatic increments. @throws AnalysisError when an increment does not converge at the smallest size.
 Outcome run_static_step(Analysis& analysis, const Step& step, Observer& observer);
 
 /// Half-step central difference. @throws AnalysisError when an element inverts or the run blows up.
 Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observer);
+
+/// Runners of the alternatives of Step::procedure.
+std::array<RunStep, std::variant_size_v<Procedure>>& procedure_runners();
+
+/// The line with which a solver joins the register: static const RegisterProcedure<StaticProcedure> registered(run_static_step);
+template <class Kind>
+struct RegisterProcedure {
+  explicit RegisterProcedure(RunStep run) { procedure_runners()[Procedure(Kind{}).index()] = run; }
+};
 
 /// Runs the steps from where the state stands to the end of the model's last step, or of the step named `last`
 /// (empty: all). @throws InputError when there is no step of that name.

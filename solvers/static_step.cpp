@@ -31,6 +31,7 @@ class StaticStep {
   StaticStep(Analysis& analysis, const Step& step, Observer& observer)
       : analysis_(analysis),
         step_(step),
+        procedure_(std::get<StaticProcedure>(step.procedure)),
         observer_(observer),
         drive_{prescribed_motions(analysis, step), {}},
         system_(analysis, step, slots_of(drive_.motions)),
@@ -43,7 +44,7 @@ class StaticStep {
 
  private:
   void find_start();
-  bool follows_geometry() const { return step_.static_procedure.nonlinear_geometry || system_.has_contact(); }
+  bool follows_geometry() const { return procedure_.nonlinear_geometry || system_.has_contact(); }
   NewtonResult attempt(double time_increment);
   NewtonResult solve_linearly(const IncrementGoal& goal);
   Outcome march();
@@ -55,7 +56,7 @@ class StaticStep {
   void choose_damping(std::span<const double> motion, double time_increment);
   void choose_damping_again();
   bool chooses_damping() const {
-    return fresh_ && !taken_up_ && step_.static_procedure.stabilize && follows_geometry();
+    return fresh_ && !taken_up_ && procedure_.stabilize && follows_geometry();
   }
   void find_applied_forces(const IncrementGoal& goal, std::vector<double>& applied) const;
   void store_reactions();
@@ -65,6 +66,7 @@ class StaticStep {
 
   Analysis& analysis_;
   const Step& step_;
+  const StaticProcedure& procedure_;
   Observer& observer_;
   ImplicitDrive drive_;
   ImplicitSystem system_;
@@ -116,32 +118,30 @@ Outcome StaticStep::run() {
         "the job without --restart, or give the step NLGEOM",
         analysis_.model.name, step_.name));
   find_start();
-  const auto& procedure = step_.static_procedure;
   observer_.log(fmt::format("step {} '{}': static, {}, {} equations", analysis_.current.step + 1, step_.name,
                             follows_geometry() ? "finite displacements" : "linear geometry",
                             system_.map().equations()));
-  if (!procedure.nonlinear_geometry && system_.has_contact())
+  if (!procedure_.nonlinear_geometry && system_.has_contact())
     observer_.log("  contact needs iterations: the step runs as if NLGEOM=YES");
-  if (procedure.stabilize && !follows_geometry())
+  if (procedure_.stabilize && !follows_geometry())
     observer_.log("  STABILIZE has nothing to stabilise in a linear step");
-  if (taken_up_ && procedure.stabilize) choose_damping_again();
+  if (taken_up_ && procedure_.stabilize) choose_damping_again();
   const auto outcome = march();
   log_totals(MPI_Wtime() - begin);
   return outcome;
 }
 
 Outcome StaticStep::march() {
-  const auto& procedure = step_.static_procedure;
   auto& state = analysis_.current;
   // A step taken up again goes on with the increment that it had come to.
   const bool told = taken_up_ && state.time_increment != 0.0;
-  double suggested = told ? std::abs(state.time_increment) : procedure.initial_increment;
-  int easy = told && state.time_increment < 0.0 ? 1 : 0, failures = 0;
+  double suggested = told ? state.time_increment : procedure_.initial_increment;
+  int easy = told && state.easy ? 1 : 0, failures = 0;
   bool stopping = false;
   while (remaining_time() > 0.0) {
-    if (state.increment >= procedure.maximum_increments)
+    if (state.increment >= procedure_.maximum_increments)
       fail(suggested,
-           fmt::format("all {} increments are used up; allow more with *STEP, INC=", procedure.maximum_increments));
+           fmt::format("all {} increments are used up; allow more with *STEP, INC=", procedure_.maximum_increments));
     const double time_increment = next_increment(suggested);
     const auto result = attempt(time_increment);
     if (!result.converged) {
@@ -149,7 +149,7 @@ Outcome StaticStep::march() {
       easy = 0;
       if (!newton_.mechanism().empty() && ++failures >= 3)
         throw AnalysisError(mechanism_message(step_, newton_.mechanism()));
-      if (procedure.direct || suggested < procedure.minimum_increment) fail(time_increment, result.reason);
+      if (procedure_.direct || suggested < procedure_.minimum_increment) fail(time_increment, result.reason);
       observer_.log(
           fmt::format("  increment {}: {}; tried again with {:.4g}", state.increment + 1, result.reason, suggested));
       continue;
@@ -159,10 +159,11 @@ Outcome StaticStep::march() {
     observer_.log(fmt::format("  increment {}: step time {:.6g} of {:.6g}, {} iterations", state.increment,
                               state.step_time, step_.duration(), result.iterations));
     easy = result.iterations <= easy_iterations ? easy + 1 : 0;
-    if (easy >= 2 && !procedure.direct)
+    if (easy >= 2 && !procedure_.direct)
       suggested =
-          std::min({std::max(suggested, time_increment) * growth, procedure.maximum_increment, step_.duration()});
-    state.time_increment = goal.ends_step ? 0.0 : (easy > 0 ? -suggested : suggested);
+          std::min({std::max(suggested, time_increment) * growth, procedure_.maximum_increment, step_.duration()});
+    state.time_increment = goal.ends_step ? 0.0 : suggested;
+    state.easy = !goal.ends_step && easy > 0;
     const bool go_on = observer_.advanced(analysis_, {.increment = state.increment,
                                                       .step_time = state.step_time,
                                                       .total_time = state.total_time,
@@ -182,7 +183,7 @@ Outcome StaticStep::march() {
 /// The suggested increment, or all that is left of the step where the rest would not be worth an increment.
 double StaticStep::next_increment(double suggested) const {
   const double rest = remaining_time();
-  const double least = std::max(step_.static_procedure.minimum_increment, 1e-9 * step_.duration());
+  const double least = std::max(procedure_.minimum_increment, 1e-9 * step_.duration());
   return rest - suggested < least ? rest : suggested;
 }
 
@@ -274,7 +275,7 @@ void StaticStep::guess_damping(double time_increment) {
   }
   analysis_.communicator.sum(std::span<double>(mass));
   if (mass[1] > 0.0)
-    damping_ = step_.static_procedure.dissipated_energy_fraction * solver_.average_diagonal() * time_increment *
+    damping_ = procedure_.dissipated_energy_fraction * solver_.average_diagonal() * time_increment *
                mass[1] / mass[0];
 }
 
@@ -289,7 +290,7 @@ void StaticStep::choose_damping(std::span<const double> motion, double time_incr
   }
   analysis_.communicator.sum(std::span<double>(sums));
   if (sums[0] > 0.0 && sums[1] > 0.0)
-    damping_ = step_.static_procedure.dissipated_energy_fraction * sums[0] * time_increment / sums[1];
+    damping_ = procedure_.dissipated_energy_fraction * sums[0] * time_increment / sums[1];
   observer_.log(
       fmt::format("  stabilised by viscous forces {:.4g} * mass * velocity, which fade over the step", damping_));
 }
@@ -299,7 +300,7 @@ void StaticStep::choose_damping(std::span<const double> motion, double time_incr
 void StaticStep::choose_damping_again() {
   std::vector<double> way(system_.map().slots());
   for (std::int32_t slot = 0; slot < system_.map().slots(); ++slot) way[slot] = system_.displacement(slot);
-  choose_damping(way, step_.static_procedure.initial_increment);
+  choose_damping(way, procedure_.initial_increment);
 }
 
 /// What acts on each slot from outside, in its directions: loads, reactions of prescribed motions, fading forces. On
@@ -396,5 +397,9 @@ Outcome run_static_step(Analysis& analysis, const Step& step, Observer& observer
   observer.step_started(analysis, analysis.current.step);
   return StaticStep(analysis, step, observer).run();
 }
+
+namespace {
+const RegisterProcedure<StaticProcedure> registered(run_static_step);
+}  // namespace
 
 }  // namespace balocco

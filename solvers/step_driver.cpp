@@ -7,8 +7,7 @@ double amplitude_factor(const Model& model, const Step& step, std::int32_t ampli
     const auto& curve = model.amplitudes[amplitude];
     return curve.value(curve.total_time ? total_time : step_time);
   }
-  const bool ramps = step.procedure == Step::Procedure::static_analysis;
-  return ramps ? step_time / step.duration() : 1.0;
+  return step.ramps_loads() && step.duration() > 0.0 ? step_time / step.duration() : 1.0;
 }
 
 double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,

@@ -131,14 +131,13 @@ std::vector<std::unique_ptr<ElementGroup>> sample_groups(const Model& model) {
 
 /// Times that were not said: the procedure's default.
 void default_times(Step& step) {
-  const bool is_static = step.procedure == Step::Procedure::static_analysis;
   for (auto& output : step.field_outputs) {
     if (output.frequency || output.number_interval || output.time_interval || !output.time_points.empty()) continue;
-    is_static ? output.frequency = 1 : output.number_interval = 20;
+    step.has_few_increments() ? output.frequency = 1 : output.number_interval = 20;
   }
   for (auto& output : step.history_outputs) {
     if (output.frequency || output.time_interval) continue;
-    if (is_static) {
+    if (step.has_few_increments()) {
       output.frequency = 1;
     } else {
       output.time_interval = step.duration() / 200.0;  // Abaqus/Explicit's number of history points

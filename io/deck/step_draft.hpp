@@ -1,7 +1,9 @@
 // What is known of the step being read, beside the Step itself.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <unordered_map>
 #include <utility>
@@ -13,6 +15,12 @@ namespace balocco::deck {
 struct StepDraft {
   Location location;
   bool has_procedure = false;
+  // Said by *STEP and by keywords that may stand before the procedure's own; the procedure takes what is its own.
+  bool nonlinear_geometry = false;
+  std::int32_t maximum_increments = 100;
+  ImplicitControls controls;  // go on from step to step, like NLGEOM
+  std::optional<std::array<double, 2>> bulk_viscosity;  // linear, quadratic
+  Location bulk_viscosity_location;
   bool faulty = false;  // a block of it was refused: what that leaves missing is not told
   bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false;  // OP=NEW seen
   std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary

@@ -27,17 +27,18 @@ double reached(const Model& model, const Load& load, double step_time, double to
 /// What a step takes over from the one before.
 void inherit(Builder& builder, Step& step) {
   const Model& model = builder.model;
-  if (model.steps.empty()) {
+  const auto row = static_cast<std::int32_t>(model.steps.size());
+  const auto general = model.general_step_before(row);
+  if (general < 0) {
     step.boundary = builder.initial_boundary;
     for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair) {
       step.active_contact_pairs.push_back(static_cast<std::int32_t>(pair));
     }
     return;
   }
-  const Step& before = model.steps.back();
-  step.static_procedure.nonlinear_geometry =
-      before.static_procedure.nonlinear_geometry || before.procedure == Step::Procedure::explicit_dynamics;
-  step.controls = before.controls;
+  const Step& before = model.steps[general];
+  if (builder.without_field.contains(general)) builder.without_field.insert(row);
+  if (builder.without_history.contains(general)) builder.without_history.insert(row);
   step.boundary = before.boundary;
   for (auto& condition : step.boundary) condition.propagated = true;
   step.concentrated_loads = before.concentrated_loads;
@@ -71,14 +72,12 @@ void index_nodes(Builder& builder) {
 }
 
 void begin_step(Builder& builder, const Block& block) {
-  builder.draft = {};
-  builder.draft.location = block.location;
+  auto& draft = builder.draft;
+  const bool nonlinear_before = draft.nonlinear_geometry;
+  draft = {.location = block.location, .nonlinear_geometry = nonlinear_before, .controls = draft.controls};
   builder.draft.faulty = builder.refused_steps.contains(&block);
   Step step;
   inherit(builder, step);
-  const std::size_t row = builder.model.steps.size();
-  if (builder.without_field.contains(row - 1)) builder.without_field.insert(row);
-  if (builder.without_history.contains(row - 1)) builder.without_history.insert(row);
   step.name = block.value("NAME", fmt::format("STEP-{}", builder.model.steps.size() + 1));
   for (const auto& other : builder.model.steps) {
     if (other.name == step.name)
@@ -86,13 +85,13 @@ void begin_step(Builder& builder, const Block& block) {
   }
   if (block.has("NLGEOM")) {
     const bool asked = block.value("NLGEOM", "YES") == "YES";
-    if (!asked && step.static_procedure.nonlinear_geometry) {
+    if (!asked && nonlinear_before) {
       builder.error(block, block.location, "NLGEOM=NO cannot follow a step with large displacements; remove it");
     }
-    step.static_procedure.nonlinear_geometry = asked;
+    draft.nonlinear_geometry = asked;
   }
-  step.static_procedure.maximum_increments = block.integer("INC", 100);
-  if (step.static_procedure.maximum_increments < 1)
+  draft.maximum_increments = block.integer("INC", 100);
+  if (draft.maximum_increments < 1)
     builder.error(block, block.location, "INC must be positive; correct it");
   if (builder.model.heading.empty() && builder.model.steps.empty() && !block.lines.empty()) {
     builder.model.heading = block.lines[0].text;  // a subheading, as CalculiX decks have it
@@ -104,6 +103,16 @@ void begin_step(Builder& builder, const Block& block) {
 void end_step(Builder& builder, const Block& block) {
   if (!builder.draft.has_procedure && !builder.draft.faulty) {
     builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC or *DYNAMIC, EXPLICIT");
+  }
+  Step& step = current(builder);
+  if (auto* procedure = std::get_if<StaticProcedure>(&step.procedure)) procedure->controls = builder.draft.controls;
+  if (!builder.draft.bulk_viscosity) return;
+  if (auto* procedure = std::get_if<ExplicitProcedure>(&step.procedure)) {
+    procedure->linear_bulk_viscosity = (*builder.draft.bulk_viscosity)[0];
+    procedure->quadratic_bulk_viscosity = (*builder.draft.bulk_viscosity)[1];
+  } else {
+    builder.diagnostics.error(builder.draft.bulk_viscosity_location, "BULK VISCOSITY",
+                              "only *DYNAMIC, EXPLICIT has a bulk viscosity; remove it from this step");
   }
 }
 
@@ -117,8 +126,9 @@ bool first_procedure(Builder& builder, const Block& block) {
 void read_static(Builder& builder, const Block& block) {
   if (!first_procedure(builder, block)) return;
   Step& step = current(builder);
-  step.procedure = Step::Procedure::static_analysis;
-  auto& procedure = step.static_procedure;
+  auto& procedure = step.procedure.emplace<StaticProcedure>();
+  procedure.nonlinear_geometry = builder.draft.nonlinear_geometry;
+  procedure.maximum_increments = builder.draft.maximum_increments;
   procedure.direct = block.has("DIRECT");
   procedure.stabilize = block.has("STABILIZE");
   procedure.dissipated_energy_fraction = block.real("STABILIZE", procedure.dissipated_energy_fraction);
@@ -152,10 +162,8 @@ void read_static(Builder& builder, const Block& block) {
 void read_dynamic(Builder& builder, const Block& block) {
   if (!first_procedure(builder, block)) return;
   Step& step = current(builder);
-  step.procedure = Step::Procedure::explicit_dynamics;
-  step.static_procedure = {};
-  step.static_procedure.nonlinear_geometry = true;
-  auto& procedure = step.explicit_procedure;
+  auto& procedure = step.procedure.emplace<ExplicitProcedure>();
+  builder.draft.nonlinear_geometry = true;
   procedure.scale_factor = block.real("SCALE FACTOR", 1.0);
   if (!(procedure.scale_factor > 0.0 && procedure.scale_factor <= 1.0)) {
     builder.error(block, block.location, "SCALE FACTOR must lie between 0 and 1; correct it");
@@ -180,13 +188,16 @@ void read_dynamic(Builder& builder, const Block& block) {
 }
 
 void read_bulk_viscosity(Builder& builder, const Block& block) {
-  auto& procedure = current(builder).explicit_procedure;
+  const ExplicitProcedure standard;
+  auto& [linear, quadratic] =
+      builder.draft.bulk_viscosity.emplace(std::array{standard.linear_bulk_viscosity, standard.quadratic_bulk_viscosity});
+  builder.draft.bulk_viscosity_location = block.location;
   if (block.lines.empty()) return;
   Row row(builder, block, block.lines[0]);
-  procedure.linear_bulk_viscosity = row.real_or(0, procedure.linear_bulk_viscosity, "linear coefficient");
-  procedure.quadratic_bulk_viscosity = row.real_or(1, procedure.quadratic_bulk_viscosity, "quadratic coefficient");
+  linear = row.real_or(0, linear, "linear coefficient");
+  quadratic = row.real_or(1, quadratic, "quadratic coefficient");
   row.at_most(2);
-  if (row.ok() && (procedure.linear_bulk_viscosity < 0.0 || procedure.quadratic_bulk_viscosity < 0.0)) {
+  if (row.ok() && (linear < 0.0 || quadratic < 0.0)) {
     row.error("the coefficients must not be negative; correct them");
   }
 }
@@ -202,7 +213,7 @@ void only_fields(Row& row, std::initializer_list<int> known) {
 }
 
 void read_controls(Builder& builder, const Block& block) {
-  auto& controls = current(builder).controls;
+  auto& controls = builder.draft.controls;
   if (block.has("RESET")) controls = {};
   if (block.lines.empty()) return;
   Row row(builder, block, block.lines[0]);

@@ -1,5 +1,6 @@
 // The steps of a deck being written.
 #include <algorithm>
+#include <utility>
 
 #include "deck/writer.hpp"
 
@@ -7,8 +8,10 @@ namespace balocco::deck {
 
 namespace {
 
+/// The step whose conditions and output go on in this one.
 const Step* before(const Model& model, std::size_t row) {
-  return row == 0 ? nullptr : &model.steps[row - 1];
+  const auto general = model.general_step_before(static_cast<std::int32_t>(row));
+  return general < 0 ? nullptr : &model.steps[general];
 }
 
 const char* type_of(BoundaryCondition::Kind kind) {
@@ -25,23 +28,29 @@ const char* type_of(BoundaryCondition::Kind kind) {
 
 }  // namespace
 
-void Writer::procedure(const Step& step) {
-  if (step.procedure == Step::Procedure::static_analysis) {
-    const auto& p = step.static_procedure;
-    line("*STATIC{}{}", p.direct ? ", DIRECT" : "",
-         p.stabilize ? fmt::format(", STABILIZE={}", p.dissipated_energy_fraction) : "");
-    line("{}, {}, {}, {}", p.initial_increment, p.duration, p.minimum_increment, p.maximum_increment);
-    return;
-  }
-  const auto& p = step.explicit_procedure;
+void Writer::procedure(const StaticProcedure& p) {
+  line("*STATIC{}{}", p.direct ? ", DIRECT" : "",
+       p.stabilize ? fmt::format(", STABILIZE={}", p.dissipated_energy_fraction) : "");
+  line("{}, {}, {}, {}", p.initial_increment, p.duration, p.minimum_increment, p.maximum_increment);
+  controls(p.controls);
+}
+
+void Writer::procedure(const ExplicitProcedure& p) {
   line("*DYNAMIC, EXPLICIT{}{}", p.fixed_increment ? ", DIRECT USER CONTROL" : "",
        p.scale_factor != 1.0 ? fmt::format(", SCALE FACTOR={}", p.scale_factor) : "");
   line("{}, {}", p.fixed_increment ? fmt::format("{}", *p.fixed_increment) : "", p.duration);
   line("*BULK VISCOSITY\n{}, {}", p.linear_bulk_viscosity, p.quadratic_bulk_viscosity);
 }
 
-void Writer::controls(const Step& step, const ImplicitControls& old) {
-  const auto& now = step.controls;
+void Writer::procedure(const FrequencyProcedure& p) {
+  line("*FREQUENCY, NORMALIZATION={}",
+       p.normalization == FrequencyProcedure::Normalization::mass ? "MASS" : "DISPLACEMENT");
+  const auto field = [](const auto& value) { return value ? fmt::format("{}", *value) : std::string(); };
+  line("{}, {}, {}, {}", field(p.number), field(p.lower), field(p.upper), p.shift);
+}
+
+void Writer::controls(const ImplicitControls& now) {
+  const auto old = std::exchange(controls_, now);
   if (now.residual_tolerance != old.residual_tolerance || now.correction_tolerance != old.correction_tolerance) {
     line("*CONTROLS, PARAMETERS=FIELD\n{}, {}", now.residual_tolerance, now.correction_tolerance);
   }
@@ -60,7 +69,8 @@ void Writer::contact_changes(std::size_t row) {
     const auto pair = static_cast<std::int32_t>(k);
     const auto& [slave, master, interaction, first_step, location] = model_.contact_pairs[k];
     const bool now = contains(active, pair), starts = first_step > 0 && first_step == static_cast<std::int32_t>(row);
-    const bool was = row == 0 ? first_step == 0 : contains(model_.steps[row - 1].active_contact_pairs, pair);
+    const auto* previous = before(model_, row);
+    const bool was = previous == nullptr ? first_step == 0 : contains(previous->active_contact_pairs, pair);
     const std::string names = quoted(model_.surfaces[slave].name) + ", " + quoted(model_.surfaces[master].name);
     if (starts) line("*CONTACT PAIR, INTERACTION={}\n{}", quoted(model_.interactions[interaction].name), names);
     if (now != (was || starts)) line("*MODEL CHANGE, TYPE=CONTACT PAIR, {}\n{}", now ? "ADD" : "REMOVE", names);
@@ -207,24 +217,23 @@ void Writer::checkpoints(std::size_t row) {
     line("*RESTART, WRITE, FREQUENCY={}", *step.checkpoint_frequency);
   } else if (step.checkpoint_number_interval) {
     line("*RESTART, WRITE, NUMBER INTERVAL={}", *step.checkpoint_number_interval);
-  } else if (row > 0 &&
-             (model_.steps[row - 1].checkpoint_frequency || model_.steps[row - 1].checkpoint_number_interval)) {
+  } else if (const auto* previous = before(model_, row);
+             previous != nullptr && (previous->checkpoint_frequency || previous->checkpoint_number_interval)) {
     line("*RESTART, WRITE, FREQUENCY=0");
   }
-}
-
-/// Explicit steps are always computed with large displacements.
-bool is_nonlinear(const Step& step) {
-  return step.procedure == Step::Procedure::explicit_dynamics || step.static_procedure.nonlinear_geometry;
 }
 
 void Writer::step(std::size_t row) {
   const Step& now = model_.steps[row];
   comment(("Step " + now.name).c_str());
-  line("*STEP, NAME={}, NLGEOM={}, INC={}", quoted(now.name), is_nonlinear(now) ? "YES" : "NO",
-       now.static_procedure.maximum_increments);
-  procedure(now);
-  controls(now, row == 0 ? ImplicitControls{} : before(model_, row)->controls);
+  // A static step has large displacements where it says so, or where they have gone on from a step before.
+  const auto* statics = std::get_if<StaticProcedure>(&now.procedure);
+  const std::string details = now.is_perturbation() ? ", PERTURBATION"
+                              : statics == nullptr ? ", NLGEOM=YES"
+                                                   : fmt::format(", NLGEOM={}, INC={}", statics->nonlinear_geometry ? "YES" : "NO",
+                                                                 statics->maximum_increments);
+  line("*STEP, NAME={}{}", quoted(now.name), details);
+  std::visit([this](const auto& kind) { procedure(kind); }, now.procedure);
   contact_changes(row);
   attachments(now);
   boundary(row);

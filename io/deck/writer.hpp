@@ -49,8 +49,10 @@ class Writer {
   void initial_velocities();
 
   void step(std::size_t row);
-  void procedure(const Step& step);
-  void controls(const Step& step, const ImplicitControls& before);
+  void procedure(const StaticProcedure& p);
+  void procedure(const ExplicitProcedure& p);
+  void procedure(const FrequencyProcedure& p);
+  void controls(const ImplicitControls& now);
   void contact_changes(std::size_t row);
   void boundary(std::size_t row);
   const NodeSet* set_of(Conditions first, Conditions end) const;
@@ -68,6 +70,7 @@ class Writer {
 
   const Model& model_;
   std::string text_;
+  ImplicitControls controls_;  // that the deck has come to
   std::vector<NodeSet> made_node_sets_;
   std::vector<ElementSet> made_element_sets_;
   std::string time_points_;  // *TIME POINTS blocks of the output requests

@@ -57,10 +57,12 @@ class StepAuthor {
   Step static_step(const std::string& name, double initial, double maximum) const {
     Step step;
     step.name = name;
-    step.static_procedure.initial_increment = initial;
-    step.static_procedure.maximum_increment = maximum;
-    step.static_procedure.nonlinear_geometry = true;
-    step.static_procedure.maximum_increments = 200;
+    StaticProcedure procedure;
+    procedure.initial_increment = initial;
+    procedure.maximum_increment = maximum;
+    procedure.nonlinear_geometry = true;
+    procedure.maximum_increments = 200;
+    step.procedure = procedure;
     step.field_outputs.push_back(field_output());
     step.field_outputs.back().frequency = last_increment_only;
     step.history_outputs.push_back(history_output());
@@ -115,7 +117,7 @@ class StepAuthor {
   /// before they are stressed: a small pressure, or stabilization, carries them here.
   Step seating() const {
     auto step = static_step("SEAT", 0.25, 0.5);
-    step.static_procedure.stabilize = spec_.statics.stabilize;
+    std::get<StaticProcedure>(step.procedure).stabilize = spec_.statics.stabilize;
     for (const auto& [name, side] : {std::pair{"BEAD_LEFT", 1.0}, std::pair{"BEAD_RIGHT", -1.0}}) {
       const auto& nodes = nodes_of(model_, name);
       for (const auto node : nodes) step.boundary.push_back(held(node, 0, false));
@@ -170,12 +172,12 @@ class StepAuthor {
 
   Step rolling_step(const std::string& name, double duration, int frames, bool first) const {
     Step step;
-    step.procedure = Step::Procedure::explicit_dynamics;
     step.name = name;
-    step.explicit_procedure.duration = duration;
-    step.explicit_procedure.scale_factor = spec_.rolling.scale_factor;
-    step.explicit_procedure.linear_bulk_viscosity = spec_.rolling.linear_bulk_viscosity;
-    step.explicit_procedure.quadratic_bulk_viscosity = spec_.rolling.quadratic_bulk_viscosity;
+    step.procedure = ExplicitProcedure{.duration = duration,
+                                       .fixed_increment = {},
+                                       .scale_factor = spec_.rolling.scale_factor,
+                                       .linear_bulk_viscosity = spec_.rolling.linear_bulk_viscosity,
+                                       .quadratic_bulk_viscosity = spec_.rolling.quadratic_bulk_viscosity};
     hold(step, rig_.hub, true, 4);
     for (std::int32_t dof = 0; dof < every_dof; ++dof) {
       auto condition = held(rig_.road, dof, dof > 0 && (dof != 2 || !first));

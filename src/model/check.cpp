@@ -242,8 +242,8 @@ void Checker::check_boundary(const Step& step) {
 }
 
 void Checker::check_density(const Step& step) {
-  if (step.procedure != Step::Procedure::explicit_dynamics && step.gravity.empty()) return;
-  const char* why = step.procedure == Step::Procedure::explicit_dynamics ? "an explicit step" : "gravity";
+  if (!step.needs_mass() && step.gravity.empty()) return;
+  const auto why = step.needs_mass() ? fmt::format("step {} ({})", step.name, step.procedure_name()) : "gravity";
   const auto need = [&](std::int32_t material) {
     if (material < 0 || model_.materials[material].density > 0.0) return;
     error(model_.materials[material].location,

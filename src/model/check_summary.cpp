@@ -223,12 +223,12 @@ void Summary::time_lines() {
        critical_type_);
   bool any_explicit = false;
   for (const auto& step : model_.steps) {
-    if (step.procedure != Step::Procedure::explicit_dynamics) {
-      line("Step {}: static, period {:.6g}", step.name, step.duration());
+    const auto* procedure = std::get_if<ExplicitProcedure>(&step.procedure);
+    if (procedure == nullptr) {
+      line("Step {}: {}, period {:.6g}", step.name, step.procedure_name(), step.duration());
       continue;
     }
-    const double increment =
-        step.explicit_procedure.fixed_increment.value_or(stable_increment_ * step.explicit_procedure.scale_factor);
+    const double increment = procedure->fixed_increment.value_or(stable_increment_ * procedure->scale_factor);
     const double cycles = step.duration() / increment;
     any_explicit = true;
     line("Step {}: explicit, period {:.6g}, about {:.3g} increments, {:.3g} s on {} ranks", step.name, step.duration(),

@@ -14,6 +14,12 @@ std::string Model::where(Location location) const {
   return fmt::format("{}:{}", files[location.file], location.line);
 }
 
+std::int32_t Model::general_step_before(std::int32_t step) const {
+  do --step;
+  while (step >= 0 && steps[step].is_perturbation());
+  return step;
+}
+
 namespace {
 
 /// The interval of `points` that holds `time`, and the fraction of it that has passed; clamped at both ends.

@@ -222,6 +222,9 @@ struct Model {
   std::vector<InitialVelocity> initial_velocities;
   std::vector<Step> steps;
 
+  /// The last step before `step` that changed the state: what is not said anew goes on from it. -1: none.
+  std::int32_t general_step_before(std::int32_t step) const;
+
   /// "FILE:LINE" for messages.
   std::string where(Location location) const;
 };

@@ -47,7 +47,8 @@ struct State {
   double step_time = 0.0;           // time passed in it
   std::int64_t increment = 0;       // increments done in it
   bool dynamic = false;             // true once initial velocities have been applied
-  double time_increment = 0.0;      // of the increment to come, 0 at the end of a step; static: as suggested, negative after an easy increment
+  double time_increment = 0.0;      // of the increment to come (static: as suggested), 0 at the end of a step
+  bool easy = false;                // static: the last increment converged fast
 
   std::vector<double> position;     // 4 a node, one scratch node more than the domain has
   std::vector<double> velocity;     // 4 a node; explicit: in the middle of the increment to come

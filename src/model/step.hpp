@@ -6,6 +6,8 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <variant>
 #include <vector>
 
 namespace balocco {
@@ -93,22 +95,6 @@ struct HistoryOutput {
   std::vector<std::int32_t> contact_pairs;   // rows: resultant force CFN, CFT, CAREA, centre of pressure XN
 };
 
-struct StaticProcedure {
-  double initial_increment = 1.0, duration = 1.0, minimum_increment = 1e-5, maximum_increment = 1.0;
-  bool direct = false;  // fixed increments
-  bool nonlinear_geometry = false;
-  std::int32_t maximum_increments = 100;
-  bool stabilize = false;
-  double dissipated_energy_fraction = 2e-4;
-};
-
-struct ExplicitProcedure {
-  double duration = 0.0;
-  std::optional<double> fixed_increment;  // *DYNAMIC, EXPLICIT, DIRECT USER CONTROL
-  double scale_factor = 1.0;
-  double linear_bulk_viscosity = 0.06, quadratic_bulk_viscosity = 1.2;
-};
-
 /// Convergence controls of *CONTROLS (Abaqus's meanings and defaults).
 struct ImplicitControls {
   double residual_tolerance = 5e-3;    // largest residual / average force
@@ -117,12 +103,59 @@ struct ImplicitControls {
   bool line_search = false;
 };
 
-struct Step {
-  enum class Procedure { static_analysis, explicit_dynamics } procedure = Procedure::static_analysis;
-  std::string name;
-  StaticProcedure static_procedure;
-  ExplicitProcedure explicit_procedure;
+// A procedure is one struct of its settings here, one solver that registers itself (solvers/procedures.hpp) and one deck
+// keyword. What others ask of every procedure are its constants: they reach them through Step.
+
+struct StaticProcedure {
+  static constexpr std::string_view name = "static";
+  static constexpr bool ramps_loads = true;     // loads without an amplitude grow linearly over the step
+  static constexpr bool needs_mass = false;
+  static constexpr bool has_few_increments = true;  // each is told, and written where a deck does not say when
+  static constexpr bool is_perturbation = false;    // about the state, which it leaves as it is
+
+  double initial_increment = 1.0, duration = 1.0, minimum_increment = 1e-5, maximum_increment = 1.0;
+  bool direct = false;  // fixed increments
+  bool nonlinear_geometry = false;
+  std::int32_t maximum_increments = 100;
+  bool stabilize = false;
+  double dissipated_energy_fraction = 2e-4;
   ImplicitControls controls;
+};
+
+struct ExplicitProcedure {
+  static constexpr std::string_view name = "explicit dynamics";
+  static constexpr bool ramps_loads = false;
+  static constexpr bool needs_mass = true;
+  static constexpr bool has_few_increments = false;
+  static constexpr bool is_perturbation = false;
+
+  double duration = 0.0;
+  std::optional<double> fixed_increment;  // *DYNAMIC, EXPLICIT, DIRECT USER CONTROL
+  double scale_factor = 1.0;
+  double linear_bulk_viscosity = 0.06, quadratic_bulk_viscosity = 1.2;
+};
+
+/// Natural frequencies and modes of the structure as it is loaded. At least one of `number` and `upper` is set.
+struct FrequencyProcedure {
+  static constexpr std::string_view name = "frequency";
+  static constexpr bool ramps_loads = true;
+  static constexpr bool needs_mass = true;
+  static constexpr bool has_few_increments = true;
+  static constexpr bool is_perturbation = true;
+  static constexpr double duration = 0.0;
+
+  enum class Normalization { displacement, mass };  // of modes: largest displacement 1, or generalised mass 1
+  std::optional<std::int32_t> number;
+  std::optional<double> lower, upper;  // frequencies, cycles per time
+  double shift = 0.0;                  // cycles per time, squared: modes are looked for around it
+  Normalization normalization = Normalization::displacement;
+};
+
+using Procedure = std::variant<StaticProcedure, ExplicitProcedure, FrequencyProcedure>;
+
+struct Step {
+  std::string name;
+  Procedure procedure;
 
   std::vector<BoundaryCondition> boundary;
   std::vector<ConcentratedLoad> concentrated_loads;
@@ -135,9 +168,12 @@ struct Step {
   std::optional<std::int32_t> checkpoint_frequency;       // *RESTART, WRITE, FREQUENCY (increments)
   std::optional<std::int32_t> checkpoint_number_interval;  // *RESTART, WRITE, NUMBER INTERVAL
 
-  double duration() const {
-    return procedure == Procedure::static_analysis ? static_procedure.duration : explicit_procedure.duration;
-  }
+  double duration() const { return std::visit([](const auto& kind) { return kind.duration; }, procedure); }
+  std::string_view procedure_name() const { return std::visit([](const auto& kind) { return kind.name; }, procedure); }
+  bool ramps_loads() const { return std::visit([](const auto& kind) { return kind.ramps_loads; }, procedure); }
+  bool needs_mass() const { return std::visit([](const auto& kind) { return kind.needs_mass; }, procedure); }
+  bool has_few_increments() const { return std::visit([](const auto& kind) { return kind.has_few_increments; }, procedure); }
+  bool is_perturbation() const { return std::visit([](const auto& kind) { return kind.is_perturbation; }, procedure); }
 };
 
 }  // namespace balocco

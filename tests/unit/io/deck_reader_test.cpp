@@ -20,7 +20,7 @@ TEST(DeckReader, BrickWithAStaticStep) {
   EXPECT_EQ(model.elements[0].section, std::vector<std::int32_t>{0});
   ASSERT_EQ(model.steps.size(), 1u);
   EXPECT_EQ(model.steps[0].boundary.size(), 4u);
-  EXPECT_TRUE(model.steps[0].static_procedure.nonlinear_geometry);
+  EXPECT_TRUE(std::get<StaticProcedure>(model.steps[0].procedure).nonlinear_geometry);
   EXPECT_DOUBLE_EQ(model.steps[0].boundary[3].magnitude, 0.5);
 }
 

@@ -117,16 +117,16 @@ TEST(DeckStep, DefaultsOfProceduresAndOutput) {
       "*STEP\n*STATIC\n*END STEP\n*STEP\n*DYNAMIC, EXPLICIT\n, 2.\n*OUTPUT, FIELD, TIME INTERVAL=0.5\n*NODE OUTPUT\nU, "
       "RF\n"
       "*OUTPUT, HISTORY, FREQUENCY=0\n*END STEP\n");
-  EXPECT_EQ(steps[0].static_procedure.initial_increment, 1.0);
-  EXPECT_DOUBLE_EQ(steps[0].static_procedure.minimum_increment, 1e-5);
+  EXPECT_EQ(std::get<StaticProcedure>(steps[0].procedure).initial_increment, 1.0);
+  EXPECT_DOUBLE_EQ(std::get<StaticProcedure>(steps[0].procedure).minimum_increment, 1e-5);
   EXPECT_EQ(steps[0].field_outputs[0].frequency, 1);
   EXPECT_EQ(steps[0].field_outputs[0].node_variables, (std::vector<std::string>{"U", "V", "A", "RF"}));
   EXPECT_EQ(steps[0].history_outputs[0].energies.size(), 10u);
   ASSERT_EQ(steps[1].field_outputs.size(), 1u);
   EXPECT_EQ(steps[1].field_outputs[0].node_variables, (std::vector<std::string>{"U", "RF"}));
   EXPECT_TRUE(steps[1].history_outputs.empty());
-  EXPECT_FALSE(steps[1].explicit_procedure.fixed_increment);
-  EXPECT_EQ(steps[1].explicit_procedure.linear_bulk_viscosity, 0.06);
+  EXPECT_FALSE(std::get<ExplicitProcedure>(steps[1].procedure).fixed_increment);
+  EXPECT_EQ(std::get<ExplicitProcedure>(steps[1].procedure).linear_bulk_viscosity, 0.06);
 }
 
 TEST(DeckStep, WhatAbaqusWritesByDefaultRuns) {
@@ -234,7 +234,32 @@ TEST(DeckWriter, WhatIsWrittenReadsBackTheSame) {
   EXPECT_EQ(again.steps[1].active_contact_pairs, model.steps[1].active_contact_pairs);
   EXPECT_EQ(again.steps[0].field_outputs[0].time_points, model.steps[0].field_outputs[0].time_points);
   EXPECT_EQ(again.steps[1].history_outputs[0].nodes[0].variables, model.steps[1].history_outputs[0].nodes[0].variables);
-  EXPECT_EQ(again.steps[1].explicit_procedure.fixed_increment, 1e-7);
+  EXPECT_EQ(std::get<ExplicitProcedure>(again.steps[1].procedure).fixed_increment, 1e-7);
+}
+
+TEST(DeckStep, SettingsMayStandBeforeTheProcedureTheyBelongTo) {
+  const auto [model, warnings] = read(brick +
+                                      "*STEP, NLGEOM, INC=7\n*CONTROLS, PARAMETERS=LINE SEARCH\n4\n*STATIC\n*END STEP\n"
+                                      "*STEP\n*BULK VISCOSITY\n0.1, 2.\n*DYNAMIC, EXPLICIT\n, 1.\n*END STEP\n"
+                                      "*STEP\n*STATIC\n*END STEP\n");
+  const auto& load = std::get<StaticProcedure>(model.steps[0].procedure);
+  EXPECT_EQ(load.maximum_increments, 7);
+  EXPECT_TRUE(load.nonlinear_geometry);
+  EXPECT_TRUE(load.controls.line_search);
+  EXPECT_EQ(std::get<ExplicitProcedure>(model.steps[1].procedure).linear_bulk_viscosity, 0.1);
+  const auto& again = std::get<StaticProcedure>(model.steps[2].procedure);
+  EXPECT_EQ(again.maximum_increments, 100);
+  EXPECT_TRUE(again.nonlinear_geometry);
+  EXPECT_TRUE(again.controls.line_search);
+
+  const auto& written = std::get<StaticProcedure>(read(write_deck(model)).model.steps[2].procedure);
+  EXPECT_TRUE(written.nonlinear_geometry);
+  EXPECT_TRUE(written.controls.line_search);
+}
+
+TEST(DeckStep, BulkViscosityBelongsToExplicitSteps) {
+  const auto errors = errors_of(brick + "*STEP\n*STATIC\n*BULK VISCOSITY\n0.1, 2.\n*END STEP\n");
+  EXPECT_NE(errors.find("*BULK VISCOSITY: only *DYNAMIC, EXPLICIT has a bulk viscosity"), std::string::npos) << errors;
 }
 
 TEST(ModelSummary, MassCentreAndInertiaOfABrick) {

@@ -61,9 +61,8 @@ void add_steps(Model& model) {
   model.steps.push_back(load);
 
   Step roll;
-  roll.procedure = Step::Procedure::explicit_dynamics;
+  roll.procedure = ExplicitProcedure{.duration = 10.0, .fixed_increment = {}};
   roll.name = "ROLL";
-  roll.explicit_procedure.duration = 10.0;
   roll.field_outputs.push_back({.number_interval = 4, .node_variables = {"U", "RF"}, .element_variables = {"S", "STH"}});
   roll.field_outputs.push_back({.time_interval = 3.0,
                                 .node_variables = {"V"},
@@ -185,7 +184,7 @@ void Analysis::increment(double time_increment) {
 bool Analysis::run(Observer& observer, std::int64_t last_increment) {
   for (; current.step < static_cast<std::int32_t>(model.steps.size()); ++current.step) {
     const Step& step = model.steps[current.step];
-    const bool dynamic = step.procedure == Step::Procedure::explicit_dynamics;
+    const bool dynamic = !step.has_few_increments();
     current.dynamic |= dynamic;
     observer.step_started(*this, current.step);
     const double time_increment = dynamic ? 0.1 : 0.25;
