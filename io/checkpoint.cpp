@@ -207,6 +207,9 @@ void write_header(const std::string& path, const Model& model, const State& stat
   file.set_attribute("/", "dynamic", static_cast<std::int64_t>(state.dynamic));
   file.set_attribute("/", "time_increment", state.time_increment);
   file.set_attribute("/", "easy", static_cast<std::int64_t>(state.easy));
+  file.set_attribute("/", "energy_at_start", state.energy_at_start);
+  file.set_attribute("/", "largest_energy", state.largest_energy);
+  file.set_attribute("/", "least_stable", state.least_stable);
   file.set_attribute("/", "format", std::string("balocco checkpoint"));
   file.close();
 }
@@ -229,6 +232,9 @@ void read_header(const Hdf5File& file, const std::string& path, const Model& mod
   state.dynamic = file.integer_attribute("/", "dynamic") != 0;
   state.time_increment = file.number_attribute("/", "time_increment");
   state.easy = file.integer_attribute("/", "easy") != 0;
+  state.energy_at_start = file.number_attribute("/", "energy_at_start");
+  state.largest_energy = file.number_attribute("/", "largest_energy");
+  state.least_stable = file.number_attribute("/", "least_stable");
 }
 
 void read_bodies(const Hdf5File& file, State& state) {

@@ -324,10 +324,7 @@ void Writer::initial_velocities() {
       line("{}, {}", list(velocity.axis_point), list(plus(velocity.axis_point, velocity.axis_direction, 1.0)));
       continue;
     }
-    line("*INITIAL CONDITIONS, TYPE=VELOCITY");
-    for (int i = 0; i < 3; ++i) {
-      if (velocity.velocity[i] != 0.0) line("{}, {}, {}", set, i + 1, velocity.velocity[i]);
-    }
+    line("*INITIAL CONDITIONS, TYPE=VELOCITY\n{}, {}, {}", set, velocity.dof + 1, velocity.velocity[velocity.dof]);
   }
 }
 

@@ -105,7 +105,7 @@ void JobObserver::Implementation::start(const ResultSource& running, std::int32_
   for (const FieldOutput& output : current().field_outputs) plan->fields.push_back(Schedule::of(output, current()));
   if (!current().has_few_increments()) plan->status = Schedule::equal_intervals(status_lines, duration);
 
-  status->start_step(step, state, running.energies().total);
+  status->start_step(step, state);
   last = Progress{};
   last.increment = state.increment;
   last.step_time = state.step_time;
@@ -159,7 +159,7 @@ void JobObserver::Implementation::write_status(const ResultSource& running, cons
     status->static_line(progress, energies.work, energies.internal);
   } else if (plan->status->due(progress.step_time, progress.increment, progress.step_finished) || requests.info) {
     plan->status->pass(progress.step_time);
-    status->explicit_line(progress, running.energies());
+    status->explicit_line(progress, running.state(), running.energies());
   }
   status->show(progress, requests.info);
 }

@@ -34,6 +34,12 @@ bool watched() {
   return terminal;
 }
 
+/// Change of ETOTAL since the step started, in percent of the largest energy of the step.
+double energy_error(const State& state, const EnergyBalance& energies) {
+  const double scale = std::max(state.largest_energy, energies.magnitude());
+  return scale > 0.0 ? 100.0 * (energies.total - state.energy_at_start) / scale : 0.0;
+}
+
 }  // namespace
 
 std::string duration_text(double seconds) {
@@ -68,12 +74,11 @@ void Status::line(std::FILE* file, const std::string& text) {
   std::fflush(file);
 }
 
-void Status::start_step(std::int32_t step, const State& state, double total_energy) {
+void Status::start_step(std::int32_t step, const State& state) {
   step_ = step;
   step_begin_seconds_ = seconds();
   step_begin_time_ = state.step_time;
   step_begin_increment_ = state.increment;
-  step_begin_energy_ = total_energy;
   const Step& what = model_->steps[step];
   shown_twentieth_ = what.duration() > 0.0 ? static_cast<int>(20.0 * state.step_time / what.duration() + 1e-9) : 0;
   if (!root_) return;
@@ -101,12 +106,6 @@ Status::Outlook Status::outlook(const Progress& progress) const {
   return outlook;
 }
 
-/// Change of ETOTAL since the step started (or was resumed), in percent of the energy now in the model.
-double Status::energy_error(const EnergyBalance& energies) const {
-  const double scale = std::max(energies.kinetic + std::abs(energies.internal), std::abs(energies.work));
-  return scale > 0.0 ? 100.0 * (energies.total - step_begin_energy_) / scale : 0.0;
-}
-
 void Status::static_line(const Progress& progress, double work, double internal) {
   if (!root_) return;
   line(status_, fmt::format("{:>6} {:>6} {:>13.6g} {:>13.6g} {:>13.6g} {:>11.3e} {:>13.6g} {:>13.6g} {:>10.2f}", progress.increment,
@@ -114,14 +113,14 @@ void Status::static_line(const Progress& progress, double work, double internal)
                             progress.largest_residual, work, internal, seconds()));
 }
 
-void Status::explicit_line(const Progress& progress, const EnergyBalance& energies) {
+void Status::explicit_line(const Progress& progress, const State& state, const EnergyBalance& energies) {
   if (!root_) return;
   const Outlook view = outlook(progress);
   line(status_, fmt::format("{:>9} {:>13.6g} {:>13.6g} {:>12.5g} {:>10} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} "
                             "{:>9.4f} {:>9.1f} {:>9.0f} {:>10.4g}",
                             progress.increment, progress.step_time, progress.total_time, progress.time_increment,
                             progress.critical_element, energies.kinetic, energies.internal, energies.hourglass, energies.contact,
-                            energies.work, energies.total, energy_error(energies), seconds(), view.remaining,
+                            energies.work, energies.total, energy_error(state, energies), seconds(), view.remaining,
                             view.elements_per_second));
 }
 

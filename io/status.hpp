@@ -18,10 +18,10 @@ class Status {
   Status(const Status&) = delete;
   Status& operator=(const Status&) = delete;
 
-  void start_step(std::int32_t step, const State& state, double total_energy);
+  void start_step(std::int32_t step, const State& state);
   /// A line of .sta.
   void static_line(const Progress& progress, double work, double internal);
-  void explicit_line(const Progress& progress, const EnergyBalance& energies);
+  void explicit_line(const Progress& progress, const State& state, const EnergyBalance& energies);
   /// One line on a terminal, rewritten in place; elsewhere a line each 5 % of the step. `now`: whatever was shown before.
   void show(const Progress& progress, bool now);
 
@@ -38,7 +38,6 @@ class Status {
     double fraction = 0.0, remaining = 0.0, elements_per_second = 0.0;
   };
   Outlook outlook(const Progress& progress) const;
-  double energy_error(const EnergyBalance& energies) const;
   void line(std::FILE* file, const std::string& text);
 
   const Model* model_;
@@ -49,7 +48,7 @@ class Status {
   std::int64_t element_count_ = 0;
 
   std::int32_t step_ = 0;
-  double step_begin_seconds_ = 0.0, step_begin_time_ = 0.0, step_begin_energy_ = 0.0;
+  double step_begin_seconds_ = 0.0, step_begin_time_ = 0.0;
   std::int64_t step_begin_increment_ = 0;
   int shown_twentieth_ = 0;
   double shown_seconds_ = -1e300;

@@ -78,7 +78,14 @@ class Analysis : public ResultSource {
   ContactResultant contact(std::int32_t pair) const override;
 
  private:
+  struct SampledEnergies {
+    std::int32_t step = -1;
+    std::int64_t increment = -1;
+    EnergyBalance balance;
+  };
+
   void sum_masses();
+  EnergyBalance sum_energies() const;
   void apply_attachments(const Step& step);
   double kinetic_energy_of_rotary_inertia() const;
   void sum_rotary_inertia();
@@ -86,6 +93,7 @@ class Analysis : public ResultSource {
   std::vector<std::int32_t> carrier_, reference_of_, turning_body_;
   double mass_constant_ = 0.0;  // rounds shares of nodal masses
   mutable std::map<std::int32_t, std::vector<double>> partial_mass_;
+  mutable SampledEnergies sampled_;  // histories, status and checks of one increment share a sample
 };
 
 }  // namespace balocco

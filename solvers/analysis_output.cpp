@@ -219,6 +219,12 @@ double Analysis::kinetic_energy_of_rotary_inertia() const {
 }
 
 EnergyBalance Analysis::energies() const {
+  if (sampled_.step != current.step || sampled_.increment != current.increment || current.increment == 0)
+    sampled_ = {current.step, current.increment, sum_energies()};
+  return sampled_.balance;
+}
+
+EnergyBalance Analysis::sum_energies() const {
   enum { kinetic, strain, hourglass, viscous, plastic, friction, contact_springs, work, count };
   std::array<ExactSum, count> sums;
   for (std::size_t index = 0; index < element_groups.size(); ++index) {

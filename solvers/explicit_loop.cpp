@@ -32,6 +32,7 @@ void start(ExplicitStep& cycle) {
   cycle.choose_increment();
   cycle.update_velocities();
   cycle.fill_output();
+  cycle.start_energy_balance();
 }
 
 }  // namespace

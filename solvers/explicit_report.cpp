@@ -6,8 +6,13 @@
 #include <cmath>
 
 #include "explicit_step.hpp"
+#include "model/diagnostics.hpp"
 
 namespace balocco {
+
+namespace {
+constexpr std::int64_t increments_between_checks = 100;  // of the energy balance: 1 % of a run at most
+}
 
 void ExplicitStep::fill_output() {
   timers.measure(Phase::output, [&] {
@@ -43,11 +48,37 @@ Progress ExplicitStep::progress() const {
 }
 
 bool ExplicitStep::observe() {
-  if (!attention_ && !finished()) return true;
+  const bool check = analysis_.current.increment % increments_between_checks == 0 || finished();
+  if (!attention_ && !check) return true;
+  report_failure();
   fill_output();
+  if (check) check_energy_balance();
+  if (!attention_ && !finished()) return true;
   bool go_on = true;
   timers.measure(Phase::output, [&] { go_on = observer_.advanced(analysis_, progress()); });
   return go_on;
+}
+
+void ExplicitStep::start_energy_balance() {
+  const auto energies = analysis_.energies();
+  analysis_.current.energy_at_start = energies.total;
+  analysis_.current.largest_energy = energies.magnitude();
+}
+
+void ExplicitStep::check_energy_balance() {
+  auto& state = analysis_.current;
+  EnergyBalance energies;
+  timers.measure(Phase::output, [&] { energies = analysis_.energies(); });
+  state.largest_energy = std::max(state.largest_energy, energies.magnitude());
+  const double error = energies.total - state.energy_at_start;
+  const double limit = procedure_.energy_error_limit;
+  if (std::abs(error) <= limit * state.largest_energy) return;
+  throw AnalysisError(fmt::format(
+      "step {}, increment {}, time {:.6g}: the energy balance is lost: ETOTAL has changed by {:.4g}, {:.3g} % of the "
+      "largest energy of the step ({:.4g}; kinetic {:.4g}, internal {:.4g}, work {:.4g}); reduce the time increment "
+      "(SCALE FACTOR), or allow more with *DYNAMIC, EXPLICIT, ENERGY ERROR={:.3g}",
+      step_.name, state.increment, state.total_time, error, 100.0 * error / state.largest_energy, state.largest_energy,
+      energies.kinetic, energies.internal, energies.work, 200.0 * std::abs(error) / state.largest_energy));
 }
 
 void ExplicitStep::log_balance() {

@@ -18,16 +18,20 @@ Vector3<double> vector(const Point& point) {
   return {point};
 }
 
-/// A rotation carries the velocity of its axis along.
-Vector3<double> velocity_at(const InitialVelocity& initial, const Vector3<double>& position) {
-  const auto axis = vector(initial.velocity);
-  if (initial.kind == InitialVelocity::Kind::translation) return axis;
-  return axis + initial.angular_speed * cross(vector(initial.axis_direction), position - vector(initial.axis_point));
+/// Sets what a line says of the velocity of one place; a rotation carries the velocity of its axis along.
+void set_velocity(const InitialVelocity& initial, const Vector3<double>& position, double* velocity) {
+  if (initial.kind == InitialVelocity::Kind::translation) {
+    velocity[initial.dof] = initial.velocity[initial.dof];
+    return;
+  }
+  const auto turning =
+      initial.angular_speed * cross(vector(initial.axis_direction), position - vector(initial.axis_point));
+  for (int c = 0; c < 3; ++c) velocity[c] = initial.velocity[c] + turning[c];
 }
 
-Vector3<double> spin_of(const InitialVelocity& initial) {
-  if (initial.kind == InitialVelocity::Kind::translation) return {};
-  return initial.angular_speed * vector(initial.axis_direction);
+/// Spin that a rotation gives to whatever turns with it.
+Vector3<double> spin_of(const InitialVelocity& rotation) {
+  return rotation.angular_speed * vector(rotation.axis_direction);
 }
 
 void apply_to_bodies(Analysis& analysis, const InitialVelocity& initial, const std::vector<bool>& in_set) {
@@ -37,8 +41,9 @@ void apply_to_bodies(Analysis& analysis, const InitialVelocity& initial, const s
         !body.nodes.empty() && std::all_of(body.nodes.begin(), body.nodes.end(),
                                            [&](const RigidNode& carried) { return in_set[carried.node]; });
     if (!all_nodes && !in_set[analysis.model.rigid_bodies[i].reference_node]) continue;
-    body.velocity = (vector(body.velocity) + velocity_at(initial, vector(body.position))).component;
-    body.angular_velocity = (vector(body.angular_velocity) + spin_of(initial)).component;
+    set_velocity(initial, vector(body.position), body.velocity.data());
+    if (initial.kind == InitialVelocity::Kind::rotation)
+      body.angular_velocity = spin_of(initial).component;
   }
 }
 
@@ -89,10 +94,9 @@ void apply_initial_velocities(Analysis& analysis) {
       in_set[row] = true;
       const auto node = analysis.domain.local_node[row];
       if (node < 0) continue;
-      if (node < analysis.domain.turning)
-        for (int c = 0; c < 3; ++c) state.angular_velocity[4 * node + c] += spin_of(initial)[c];
-      const auto velocity = velocity_at(initial, vector(&state.position[4 * node]));
-      for (int c = 0; c < 3; ++c) state.velocity[4 * node + c] += velocity[c];
+      set_velocity(initial, vector(&state.position[4 * node]), &state.velocity[4 * node]);
+      if (initial.kind == InitialVelocity::Kind::rotation && node < analysis.domain.turning)
+        std::copy_n(spin_of(initial).component.data(), 3, &state.angular_velocity[4 * node]);
     }
     apply_to_bodies(analysis, initial, in_set);
   }

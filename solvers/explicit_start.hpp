@@ -8,8 +8,9 @@
 
 namespace balocco {
 
-/// Adds initial velocities up, on the current positions: translations, and the rigid spin of the deformed shape. A
-/// rigid body takes the field at its reference node if that node, or every node it carries, is in the set.
+/// Sets initial velocities on the current positions, later lines over earlier ones: a translation sets one component, a
+/// rotation all three, to the rigid spin of the deformed shape. A rigid body takes the field at its reference node if
+/// that node, or every node it carries, is in the set.
 void apply_initial_velocities(Analysis& analysis);
 
 /// Warns when the speed of a driven road and the spin of a rotating tyre on it do not fit a rolling radius. Collective.

@@ -257,17 +257,20 @@ void ExplicitStep::sum_body_forces() {
 
 void ExplicitStep::choose_increment() {
   timers.measure(Phase::increment, [&] {
-    const auto& state = analysis_.current;
+    auto& state = analysis_.current;
     const bool attention = observer_.next_due() <= state.step_time;
     std::array<double, 3> agreed{-stability_.increment, attention ? 1.0 : 0.0, failure_ ? 1.0 : 0.0};
     analysis_.communicator.maximum(std::span<double>(agreed));
-    if (agreed[2] > 0.0)
-      analysis_.communicator.together([&] {
-        if (failure_) throw AnalysisError(*failure_);
-      });
+    if (agreed[2] > 0.0) report_failure();
     if (-agreed[0] < collapse * scale_.reference_increment) report_collapse();
     attention_ = agreed[1] > 0.0;
-    next_increment_ = control_.next_increment(state.step_time, last_increment_, -agreed[0]);
+    next_increment_ = control_.next_increment(state, last_increment_, -agreed[0]);
+  });
+}
+
+void ExplicitStep::report_failure() {
+  analysis_.communicator.together([&] {
+    if (failure_) throw AnalysisError(*failure_);
   });
 }
 

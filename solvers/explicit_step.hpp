@@ -44,9 +44,12 @@ class ExplicitStep {
   /// Behind choose_increment, which tells what is prescribed over the next increment and whether the observer wants reactions.
   void sum_body_forces();
   void update_velocities();
-  /// Calls the observer if it is due. @return false if it wants the run to stop.
+  /// Calls the observer if it is due, but never with a run that has failed. @return false if it wants the run to stop.
+  /// @throws AnalysisError where it has: blown up, or its energy balance lost.
   bool observe();
   void fill_output();
+  /// What later energies are compared with.
+  void start_energy_balance();
   void log_timers() const;
 
   PhaseTimers timers;
@@ -65,6 +68,9 @@ class ExplicitStep {
   /// Adds the work of external and damping forces over half an increment.
   void add_half_work(double increment, std::vector<NodalWork>& work) const;
   void remember_blow_up();
+  void report_failure();
+  /// @throws AnalysisError where energy came from nowhere or went nowhere. Collective.
+  void check_energy_balance();
   [[noreturn]] void report_collapse();
   Progress progress() const;
 

@@ -6,7 +6,8 @@
 namespace balocco {
 
 namespace {
-constexpr double largest_growth = 1.1;  // of an increment over the one before
+constexpr std::int64_t increments_between_raises = 100;
+constexpr double least_raise = 1.02, largest_raise = 1.25;  // a smaller one is not worth a change
 constexpr double no_limit = 1e299;      // a model without elements has no stable increment
 constexpr double increments_without_limit = 1000.0;
 constexpr double landing_tolerance = 1e-9;  // of an increment: rounding of accumulated times
@@ -27,15 +28,23 @@ double TimeControl::combined(double stable) const {
   return 1.0 / std::sqrt(1.0 / (stable * stable) + 0.25 * spring_frequency_squared_);
 }
 
-double TimeControl::next_increment(double step_time, double previous, double stable) const {
-  const double remaining = duration_ - step_time;
-  if (remaining <= 0.0) return 0.0;
-  double increment = fixed_;
-  if (fixed_ == 0.0) {
-    const double limit = combined(stable);
-    increment = limit < no_limit ? scale_factor_ * limit : duration_ / increments_without_limit;
-    if (previous > 0.0) increment = std::min(increment, largest_growth * previous);
+double TimeControl::automatic(State& state, double previous, double stable) const {
+  const double limit = combined(stable);
+  const double now = limit < no_limit ? scale_factor_ * limit : duration_ / increments_without_limit;
+  if (previous == 0.0) state.least_stable = now;
+  state.least_stable = std::min(state.least_stable, now);
+  double increment = previous > 0.0 ? std::min(previous, now) : now;
+  if (state.increment % increments_between_raises == 0) {
+    if (state.least_stable >= least_raise * increment) increment = std::min(state.least_stable, largest_raise * increment);
+    state.least_stable = now;
   }
+  return increment;
+}
+
+double TimeControl::next_increment(State& state, double previous, double stable) const {
+  const double remaining = duration_ - state.step_time;
+  if (remaining <= 0.0) return 0.0;
+  const double increment = fixed_ > 0.0 ? fixed_ : automatic(state, previous, stable);
   if (increment * (1.0 + landing_tolerance) >= remaining) return remaining;
   return fixed_ == 0.0 && increment > 0.5 * remaining ? 0.5 * remaining : increment;
 }

@@ -29,21 +29,25 @@ struct LocalStability {
 };
 
 /// Chooses increments: the fixed one, or scale factor x the stable increment of elements and contact springs together.
+/// An increment that followed the vibrations of the mesh would pump energy into them (parametric resonance): it is
+/// lowered at once, but raised only in steps, to what was stable all through the increments since the last look at it.
 class TimeControl {
  public:
   /// Collective.
   TimeControl(const Analysis& analysis, const Step& step);
 
-  /// Increment that follows `step_time` when `previous` led there (0: none) and `stable` is the elements' limit; 0 at
-  /// the end of the step. It lands on the step's end exactly and splits what remains evenly, so that no sliver is left
-  /// over.
-  double next_increment(double step_time, double previous, double stable) const;
+  /// Increment that follows the state's instant when `previous` led there (0: none) and `stable` is the elements'
+  /// limit; 0 at the end of the step. It lands on the step's end exactly and splits what remains evenly, so that no
+  /// sliver is left over. Keeps State::least_stable.
+  double next_increment(State& state, double previous, double stable) const;
   /// Time at the end of an increment, exactly the step's duration at its end.
   double time_after(double step_time, double increment) const;
   /// Elements' limit combined with the contact springs' (omega^2 add up at most), without scale factor.
   double combined(double stable) const;
 
  private:
+  double automatic(State& state, double previous, double stable) const;
+
   double duration_, scale_factor_, spring_frequency_squared_;
   double fixed_ = 0.0;  // 0: automatic
 };

@@ -20,7 +20,8 @@ void read_velocities(Builder& builder, const Block& block) {
     if (row.ok() && (dof < 1 || dof > 3))
       row.error(fmt::format("degree of freedom {} has no initial velocity; give 1 to 3", dof));
     if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, velocity.nodes)) continue;
-    velocity.velocity[dof - 1] = value;
+    velocity.dof = static_cast<std::int32_t>(dof - 1);
+    velocity.velocity[velocity.dof] = value;
     builder.model.initial_velocities.push_back(std::move(velocity));
   }
 }

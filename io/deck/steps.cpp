@@ -168,6 +168,9 @@ void read_dynamic(Builder& builder, const Block& block) {
   if (!(procedure.scale_factor > 0.0 && procedure.scale_factor <= 1.0)) {
     builder.error(block, block.location, "SCALE FACTOR must lie between 0 and 1; correct it");
   }
+  const double percent = block.real("ENERGY ERROR", 100.0 * procedure.energy_error_limit);
+  procedure.energy_error_limit = percent / 100.0;
+  if (!(percent > 0.0)) builder.error(block, block.location, "ENERGY ERROR (percent) must be positive; correct it");
   if (block.lines.empty())
     return builder.error(block, block.location, "the time period is missing; add a line: , period");
   Row row(builder, block, block.lines[0]);
@@ -267,7 +270,7 @@ const RegisterKeyword dynamic{{"DYNAMIC",
                                Phase::history,
                                Place::step,
                                {required(flag("EXPLICIT")), flag("DIRECT USER CONTROL"), flag("DIRECT"),
-                                flag("ELEMENT BY ELEMENT"), real("SCALE FACTOR")},
+                                flag("ELEMENT BY ELEMENT"), real("SCALE FACTOR"), real("ENERGY ERROR")},
                                read_dynamic}};
 const RegisterKeyword bulk{{"BULK VISCOSITY", Phase::history, Place::step, {}, read_bulk_viscosity}};
 const RegisterKeyword controls{{"CONTROLS",

@@ -36,8 +36,11 @@ void Writer::procedure(const StaticProcedure& p) {
 }
 
 void Writer::procedure(const ExplicitProcedure& p) {
-  line("*DYNAMIC, EXPLICIT{}{}", p.fixed_increment ? ", DIRECT USER CONTROL" : "",
-       p.scale_factor != 1.0 ? fmt::format(", SCALE FACTOR={}", p.scale_factor) : "");
+  line("*DYNAMIC, EXPLICIT{}{}{}", p.fixed_increment ? ", DIRECT USER CONTROL" : "",
+       p.scale_factor != 1.0 ? fmt::format(", SCALE FACTOR={}", p.scale_factor) : "",
+       p.energy_error_limit != ExplicitProcedure{}.energy_error_limit
+           ? fmt::format(", ENERGY ERROR={}", 100.0 * p.energy_error_limit)
+           : "");
   line("{}, {}", p.fixed_increment ? fmt::format("{}", *p.fixed_increment) : "", p.duration);
   line("*BULK VISCOSITY\n{}, {}", p.linear_bulk_viscosity, p.quadratic_bulk_viscosity);
 }

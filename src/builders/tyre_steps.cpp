@@ -214,6 +214,7 @@ void add_initial_velocities(const TyreSpec& spec, const TyreSection& section, co
   spin.axis_direction = {0, 1, 0};
   InitialVelocity travel;
   travel.nodes = {rig.road};
+  travel.dof = 0;
   travel.velocity = {-spec.rolling.speed, 0, 0};
   model.initial_velocities = {spin, travel};
 }

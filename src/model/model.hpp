@@ -189,7 +189,8 @@ struct ContactPair {
 struct InitialVelocity {
   enum class Kind { translation, rotation } kind = Kind::translation;
   std::vector<std::int32_t> nodes;
-  Point velocity{};            // translation
+  Point velocity{};            // translation: of component `dof` (0-2, global) alone; rotation: of the axis
+  std::int32_t dof = -1;
   double angular_speed = 0.0;  // rotation about the axis through `axis_point` along `axis_direction` (unit)
   Point axis_point{}, axis_direction{};
   Location location;

@@ -2,7 +2,9 @@
 // ResultSource for what it wants to write. Both are plain interfaces so that `io` and `solvers` never see each other.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -28,6 +30,9 @@ struct EnergyBalance {
   double contact = 0.0;     // ALLCW: stored in contact springs
   double work = 0.0;        // ALLWK: external
   double total = 0.0;       // ETOTAL
+
+  /// What an error of the balance is measured by: the energy that is, or has come, into the model.
+  double magnitude() const { return std::max(kinetic + std::abs(internal) + viscous + friction, std::abs(work)); }
 };
 
 /// Resultant of one contact pair on the slave surface, global directions.

@@ -47,6 +47,9 @@ struct State {
   double step_time = 0.0;           // time passed in it
   std::int64_t increment = 0;       // increments done in it
   bool dynamic = false;             // true once initial velocities have been applied
+  double energy_at_start = 0.0;     // explicit: ETOTAL when the step began
+  double largest_energy = 0.0;      // explicit: EnergyBalance::magnitude() at its largest in the step, as far as it was sampled
+  double least_stable = 0.0;        // explicit: smallest increment that was stable since the last look at raising it; 0: none yet
   double time_increment = 0.0;      // of the increment to come (static: as suggested), 0 at the end of a step
   bool easy = false;                // static: the last increment converged fast
 

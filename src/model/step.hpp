@@ -133,6 +133,7 @@ struct ExplicitProcedure {
   std::optional<double> fixed_increment;  // *DYNAMIC, EXPLICIT, DIRECT USER CONTROL
   double scale_factor = 1.0;
   double linear_bulk_viscosity = 0.06, quadratic_bulk_viscosity = 1.2;
+  double energy_error_limit = 0.1;  // of the largest energy of the step: beyond it the run ends
 };
 
 /// Natural frequencies and modes of the structure as it is loaded. At least one of `number` and `upper` is set.
