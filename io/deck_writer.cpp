@@ -238,6 +238,15 @@ void Writer::section_line(const char* keyword, const Section& section, std::size
   line("*{}{}{}", keyword, parameters, section.plies.empty() ? "" : ", COMPOSITE");
 }
 
+void Writer::spring(const char* keyword, const Section& section, std::size_t row, const std::string& set) {
+  const auto& [freedom, slope, table] = section.spring;
+  section_line(fmt::format("{}{}", keyword, table.empty() ? "" : ", NONLINEAR").c_str(), section, row, set);
+  if (freedom[0] >= 0 && freedom[1] >= 0) line("{}, {}", freedom[0] + 1, freedom[1] + 1);
+  if (freedom[0] >= 0 && freedom[1] < 0) line("{}", freedom[0] + 1);
+  if (table.empty()) line("{}", slope);
+  for (const auto& [at, force] : table) line("{}, {}", force, at);
+}
+
 void Writer::section(std::size_t row) {
   const Section& section = model_.sections[row];
   std::vector<ElementRef> elements;
@@ -265,6 +274,10 @@ void Writer::section(std::size_t row) {
     case Section::Kind::rotary_inertia:
       section_line("ROTARY INERTIA", section, row, set);
       return values(section.inertia);
+    case Section::Kind::spring:
+      return spring("SPRING", section, row, set);
+    case Section::Kind::dashpot:
+      return spring("DASHPOT", section, row, set);
     case Section::Kind::membrane:
       section_line("MEMBRANE SECTION", section, row, set);
       if (section.plies.empty()) return line("{}", section.thickness);

@@ -22,6 +22,8 @@ const char* word(Section::Kind kind) {
     case Section::Kind::truss: return "truss";
     case Section::Kind::mass: return "mass";
     case Section::Kind::rotary_inertia: return "rotary inertia";
+    case Section::Kind::spring: return "spring";
+    case Section::Kind::dashpot: return "dashpot";
   }
   return "";
 }

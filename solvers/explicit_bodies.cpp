@@ -134,6 +134,24 @@ Matrix6 RigidDynamics::mass_matrix(const Body& body, const Matrix3<double>& rota
   return mass;
 }
 
+double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, std::int32_t node) const {
+  const Body& body = bodies_[index];
+  const auto& state = analysis.current.rigid_bodies[index];
+  const double* x = &analysis.current.position[4 * node];
+  const auto r = body.axes * (vector({x[0], x[1], x[2]}) - vector(state.position));
+  const auto mass = mass_matrix(body, rotation_matrix(state));
+  std::vector<int> free;
+  for (int dof = 0; dof < 6; ++dof)
+    if (body.condition[dof] == nullptr) free.push_back(dof);
+  if (free.empty()) return 0.0;
+  // Velocity of the node: that of the reference node + spin x r.
+  Eigen::Matrix<double, 3, 6> arm;
+  arm << 1, 0, 0, 0, r[2], -r[1], 0, 1, 0, -r[2], 0, r[0], 0, 0, 1, r[1], -r[0], 0;
+  const Eigen::MatrixXd free_arm = arm(Eigen::all, free), free_mass = mass(free, free);
+  const Eigen::Matrix3d mobility = free_arm * free_mass.ldlt().solve(free_arm.transpose());
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mobility, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
 Vector6 RigidDynamics::inertia_forces(const Body& body, const Matrix3<double>& rotation,
                                       const Vector3<double>& spin) const {
   const auto centrifugal = cross(spin, cross(spin, rotation * body.first_moment));

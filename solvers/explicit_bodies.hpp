@@ -46,6 +46,9 @@ class RigidDynamics {
   /// Reactions, their work ahead, and accelerations of bodies and of their nodes, for output.
   void add_to_output(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments) const;
 
+  /// Greatest acceleration per force at a local node that a body carries, in any direction, with its free degrees of freedom.
+  double mobility(const Analysis& analysis, std::size_t body, std::int32_t node) const;
+
   /// Squares of the unbalanced forces on free degrees of freedom and of the reactions; moments count with 1 / reach of
   /// the body.
   struct Balance {

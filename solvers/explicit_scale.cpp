@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
 #include "hilbert.hpp"
 
@@ -17,10 +18,14 @@ double distance(const Point& a, const Point& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
+double model_size(const Model& model) {
+  const BoundingBox box = bounding_box(model.nodes.coordinates);
+  return distance(box.low, box.high);
+}
+
 /// Shortest distance between two nodes of an element, for each local node over all elements of the model that touch it.
 std::vector<double> shortest_edges(const Model& model, const Domain& domain) {
-  const BoundingBox box = bounding_box(model.nodes.coordinates);
-  const double longest = std::max(distance(box.low, box.high), 1e-300);
+  const double longest = std::max(model_size(model), 1e-300);
   std::vector<double> edge(static_cast<std::size_t>(domain.size()), longest);
   const auto shorten = [&](std::int32_t row, double length) {
     if (const auto node = domain.local_node[row]; node >= 0 && length > 0.0) edge[node] = std::min(edge[node], length);
@@ -101,9 +106,33 @@ void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& 
       largest[node] += greatest(load) * analysis.nodal_mass[node];
 }
 
+/// Springs may stretch by the size of the model, by what is prescribed, and by what moving nodes pass in an increment: the last two
+/// count where all nodes lie in one place.
+void add_restraints(const Analysis& analysis, const Step& step, const std::vector<Restraint>& restraints, double increment,
+                    std::vector<double>& largest) {
+  const double size = model_size(analysis.model);
+  double displacement = size, speed = 0.0;
+  for (const auto& condition : step.boundary) {
+    const double magnitude = std::abs(condition.magnitude) * greatest_factor(analysis.model, condition.amplitude);
+    if (condition.kind == BoundaryCondition::Kind::displacement && condition.dof < 3)
+      displacement = std::max(displacement, magnitude);
+    if (condition.kind == BoundaryCondition::Kind::velocity) speed = std::max(speed, magnitude * (condition.dof < 3 ? 1.0 : size));
+  }
+  for (const auto& initial : analysis.model.initial_velocities) {
+    const auto& v = initial.velocity;
+    speed = std::max(speed, std::hypot(v[0], v[1], v[2]) + std::abs(initial.angular_speed) * size);
+  }
+  const double reach = displacement + speed * increment;
+  for (std::size_t node = 0; node < largest.size(); ++node) {
+    const auto& [stiffness, viscosity, force] = restraints[node];
+    largest[node] += stiffness * reach + viscosity * (reach / increment) + force;
+  }
+}
+
 }  // namespace
 
-ForceScale force_scale(const Analysis& analysis, const Step& step) {
+ForceScale force_scale(const Analysis& analysis, const Step& step, const std::vector<Restraint>& restraints,
+                       const RestraintBound& bound) {
   ForceScale scale;
   scale.reference_increment = reference_increment(analysis);
   const auto edge = shortest_edges(analysis.model, analysis.domain);
@@ -116,6 +145,9 @@ ForceScale force_scale(const Analysis& analysis, const Step& step) {
   for (std::size_t node = 0; node < moment.size(); ++node)
     moment[node] = std::max(moment[node] / (scale.reference_increment * scale.reference_increment), largest[node] * edge[node]);
   add_loads(analysis, step, largest, moment);
+  if (bound.omega_square > 0.0 || bound.rate > 0.0)
+    add_restraints(analysis, step, restraints,
+                   std::min(scale.reference_increment, neutral_increment(bound.omega_square, bound.rate)), largest);
   for (const auto pair : step.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
     for (std::int32_t point = 0; point < contact.size(); ++point)

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "analysis.hpp"
+#include "explicit_restraints.hpp"
 
 namespace balocco {
 
@@ -16,7 +16,8 @@ struct ForceScale {
 
 /// Fixed for a step by the undeformed model and the step's loads, so that a restart on any number of ranks finds the
 /// same. Collective.
-ForceScale force_scale(const Analysis& analysis, const Step& step);
+ForceScale force_scale(const Analysis& analysis, const Step& step, const std::vector<Restraint>& restraints,
+                       const RestraintBound& bound);
 
 /// Force beyond which a sum rounded with `constant` is no longer sure to be exact: 2 x the largest sum it was made for.
 constexpr double overflow_fraction = 0.66;  // of the constant; 2 x largest sum is 2/3 of it

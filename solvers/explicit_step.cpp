@@ -46,12 +46,14 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       procedure_(std::get<ExplicitProcedure>(step.procedure)),
       observer_(observer),
       total_time_at_start_(time_before(analysis.model, analysis.current.step)),
-      scale_(force_scale(analysis, step)),
-      control_(analysis, step),
+      bodies_(analysis, step),
+      restraints_(nodal_restraints(analysis)),
+      restraint_bound_(restraint_bound(analysis, restraints_, bodies_)),
+      scale_(force_scale(analysis, step, restraints_, restraint_bound_)),
+      control_(analysis, step, restraint_bound_),
       constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::translation)),
       rotation_constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::rotation)),
       gyroscopic_(make_together<GyroscopicNodes>(analysis, std::ref(step))),
-      bodies_(analysis, step),
       external_halo_(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::external),
       moments_(analysis.model.rigid_bodies.size()) {
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
@@ -69,7 +71,10 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     damping_force_.assign(4 * nodes, 0.0);
     damping_moment_.assign(analysis.current.rotation.size(), 0.0);
   }
-  analysis.communicator.together([&] { refuse_loads_without_inertia(); });
+  analysis.communicator.together([&] {
+    refuse_loads_without_inertia();
+    refuse_massless_restraints(analysis, step);
+  });
   find_loaded_nodes();
 }
 

@@ -79,11 +79,13 @@ class ExplicitStep {
   const ExplicitProcedure& procedure_;
   Observer& observer_;
   double total_time_at_start_ = 0.0;  // of the step
+  RigidDynamics bodies_;
+  std::vector<Restraint> restraints_;
+  RestraintBound restraint_bound_;
   ForceScale scale_;
   TimeControl control_;
   NodalConstraints constraints_, rotation_constraints_;
   GyroscopicNodes gyroscopic_;
-  RigidDynamics bodies_;
   Halo external_halo_;
   bool has_loads_ = false;  // of any rank
 

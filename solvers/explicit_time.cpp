@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/bulk_viscosity.hpp"
+
 namespace balocco {
 
 namespace {
@@ -13,19 +15,20 @@ constexpr double increments_without_limit = 1000.0;
 constexpr double landing_tolerance = 1e-9;  // of an increment: rounding of accumulated times
 }  // namespace
 
-TimeControl::TimeControl(const Analysis& analysis, const Step& step)
+TimeControl::TimeControl(const Analysis& analysis, const Step& step, const RestraintBound& restraints)
     : duration_(step.duration()),
       scale_factor_(std::get<ExplicitProcedure>(step.procedure).scale_factor),
+      damping_rate_(restraints.rate),
       fixed_(std::get<ExplicitProcedure>(step.procedure).fixed_increment.value_or(0.0)) {
   double largest = 0.0;
   for (const auto pair : step.active_contact_pairs)
     largest = std::max(largest, analysis.contacts[pair].largest_spring_frequency_squared(analysis.nodal_mass));
-  spring_frequency_squared_ = analysis.communicator.maximum(largest);
+  spring_frequency_squared_ = analysis.communicator.maximum(largest) + restraints.omega_square;
 }
 
 double TimeControl::combined(double stable) const {
   // The largest eigenvalue of a sum is at most the sum of the largest: omega^2 = (2 / stable)^2 + spring frequency^2.
-  return 1.0 / std::sqrt(1.0 / (stable * stable) + 0.25 * spring_frequency_squared_);
+  return neutral_increment(4.0 / (stable * stable) + spring_frequency_squared_, damping_rate_);
 }
 
 double TimeControl::automatic(State& state, double previous, double stable) const {

@@ -17,6 +17,11 @@ struct Instant {
   double average() const { return 0.5 * (previous + next); }
 };
 
+/// Bounds of the eigenvalues of M^-1 K and M^-1 C of springs and dashpots: squared circular frequency and damping rate.
+struct RestraintBound {
+  double omega_square = 0.0, rate = 0.0;
+};
+
 /// The stable increment of this rank's elements, and the id of the element that governs it.
 struct LocalStability {
   double increment = 1e300;
@@ -34,7 +39,7 @@ struct LocalStability {
 class TimeControl {
  public:
   /// Collective.
-  TimeControl(const Analysis& analysis, const Step& step);
+  TimeControl(const Analysis& analysis, const Step& step, const RestraintBound& restraints);
 
   /// Increment that follows the state's instant when `previous` led there (0: none) and `stable` is the elements'
   /// limit; 0 at the end of the step. It lands on the step's end exactly and splits what remains evenly, so that no
@@ -42,13 +47,14 @@ class TimeControl {
   double next_increment(State& state, double previous, double stable) const;
   /// Time at the end of an increment, exactly the step's duration at its end.
   double time_after(double step_time, double increment) const;
-  /// Elements' limit combined with the contact springs' (omega^2 add up at most), without scale factor.
+  /// Elements' limit combined with that of contact springs, springs and dashpots (omega^2 and damping rates add up at most), without
+  /// scale factor.
   double combined(double stable) const;
 
  private:
   double automatic(State& state, double previous, double stable) const;
 
-  double duration_, scale_factor_, spring_frequency_squared_;
+  double duration_, scale_factor_, spring_frequency_squared_, damping_rate_;
   double fixed_ = 0.0;  // 0: automatic
 };
 

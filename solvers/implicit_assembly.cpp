@@ -41,7 +41,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   stiffness_.start(request.motion);
 
   bool sound = true;
-  add_elements(sound);
+  add_elements(request.increment, sound);
   if (!everywhere_sound(sound)) return false;
   add_loads(request);
   add_pressure_stiffness(request);
@@ -69,13 +69,16 @@ bool ImplicitSystem::everywhere_sound(bool sound) {
   return false;
 }
 
-void ImplicitSystem::add_elements(bool& sound) {
+void ImplicitSystem::add_elements(double increment, bool& sound) {
+  NodalMotion motion = analysis_.current.motion();
+  motion.velocity = nullptr;
+  motion.increment = increment;
   for (std::size_t group = 0; group < analysis_.element_groups.size(); ++group)
     for (std::int32_t element = 0; element < analysis_.element_groups[group]->size() && sound; ++element)
-      add_element(group, element, sound);
+      add_element(group, element, motion, sound);
 }
 
-void ImplicitSystem::add_element(std::size_t index, std::int32_t element, bool& sound) {
+void ImplicitSystem::add_element(std::size_t index, std::int32_t element, const NodalMotion& motion, bool& sound) {
   const auto& group = *analysis_.element_groups[index];
   const auto nodes = group.nodes(element);
   const bool rigid = moves_as_one(group, element);
@@ -85,7 +88,7 @@ void ImplicitSystem::add_element(std::size_t index, std::int32_t element, bool& 
   old_history_.resize(group.history_size());
   new_history_.resize(group.history_size());
   group.gather_history(element, analysis_.current.element_history[index], old_history_);
-  if (!group.linearize(element, analysis_.current.motion(), old_history_, new_history_, force_, block_)) {
+  if (!group.linearize(element, motion, old_history_, new_history_, force_, block_)) {
     inverted_element_ = analysis_.model.elements[group.table()].id[group.row(element)];
     sound = false;
     return;

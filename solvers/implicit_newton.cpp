@@ -112,6 +112,7 @@ bool ImplicitNewton::evaluate(const IncrementGoal& goal) {
   find_remaining_motion(goal);
   const bool sound = system_.assemble({.step_time = goal.step_time,
                                        .total_time = goal.total_time,
+                                       .increment = goal.time_increment,
                                        .motion = remaining_,
                                        .viscosity = goal.damping / goal.time_increment,
                                        .regularization = regularization_});

@@ -13,6 +13,7 @@ namespace balocco {
 
 struct AssemblyRequest {
   double step_time = 0.0, total_time = 0.0;
+  double increment = 0.0;       // time that the increment takes; 0: none yet, no rate effects
   bool initial_loads = false;  // loads as they stood before the step began
   bool load_stiffness = true;  // follower pressure; a linear step leaves it out
   std::span<const double>
@@ -84,8 +85,8 @@ class ImplicitSystem {
 
  private:
   void record_pattern();
-  void add_elements(bool& sound);
-  void add_element(std::size_t group, std::int32_t element, bool& sound);
+  void add_elements(double increment, bool& sound);
+  void add_element(std::size_t group, std::int32_t element, const NodalMotion& motion, bool& sound);
   void add_loads(const AssemblyRequest& request);
   void add_pressure_stiffness(const AssemblyRequest& request);
   void add_contact();

@@ -20,6 +20,10 @@ const char* describe(Section::Kind kind) {
       return "*MASS";
     case Section::Kind::rotary_inertia:
       return "*ROTARY INERTIA";
+    case Section::Kind::spring:
+      return "*SPRING";
+    case Section::Kind::dashpot:
+      return "*DASHPOT";
   }
   return "";
 }

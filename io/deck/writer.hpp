@@ -42,6 +42,7 @@ class Writer {
   void analytical(const Surface& surface);
   void materials();
   void sections();
+  void spring(const char* keyword, const Section& section, std::size_t row, const std::string& set);
   void section(std::size_t row);
   void section_line(const char* keyword, const Section& section, std::size_t row, const std::string& set);
   void rigid_bodies();

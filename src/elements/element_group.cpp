@@ -63,6 +63,8 @@ void ElementGroup::lumped_rotary_inertia(std::int32_t, std::span<double> inertia
   std::fill(inertia.begin(), inertia.end(), 0.0);
 }
 
+Restraint ElementGroup::restraint(std::int32_t) const { return {}; }
+
 int ElementGroup::output_components(std::string_view variable) const {
   return whole_element_energy(variable) != nullptr ? 1 : point_components(variable);
 }

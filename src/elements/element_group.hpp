@@ -56,6 +56,13 @@ struct ElementEnergies {
   double plastic = 0.0;     // dissipated by plasticity
 };
 
+/// Bounds, over a step, of what an element without mass of its own (a spring, a dashpot) does to each node that it holds.
+struct Restraint {
+  double stiffness = 0.0;  // force per displacement
+  double viscosity = 0.0;  // force per velocity
+  double force = 0.0;      // of a table
+};
+
 enum class Portion { interface, interior };
 
 class ElementGroup {
@@ -98,10 +105,13 @@ class ElementGroup {
 
   /// Internal force of one element (freedoms_per_node() a node: force, moment) where its nodes are, its exact derivative
   /// (row-major, square) unless `stiffness` is empty, and the history after an increment that started from `old_history`.
-  /// Static: no rate effects. A derivative by a rotation is one by the spin d_theta in global axes: R <- exp(d_theta) R.
+  /// Static: rates, where a force depends on them, are means over motion.increment. A derivative by a rotation is one by the spin d_theta in global axes: R <- exp(d_theta) R.
   /// @return false if the element is inverted (a Jacobian <= 0), with outputs unspecified.
   virtual bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                          std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const = 0;
+
+  /// An element without mass has no stable increment of its own; the nodes that it holds have (explicit_restraints.hpp).
+  virtual Restraint restraint(std::int32_t element) const;
 
   virtual ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const = 0;
 

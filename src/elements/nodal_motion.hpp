@@ -9,6 +9,7 @@ struct NodalMotion {
   const double* velocity = nullptr;          // explicit: over the increment (half step); statics: null
   const double* orientation = nullptr;       // unit quaternion w x y z of the rotation from the reference configuration
   const double* angular_velocity = nullptr;  // global axes, half step, 0 in the fourth; statics: null
+  double increment = 0.0;                    // statics: time that the increment takes, for forces that depend on rates; 0: none
 };
 
 /// Sums that kernels SUBTRACT internal forces from; the fourth slot of each node is its rounding constant.

@@ -127,10 +127,17 @@ struct Ply {
   double angle = 0.0;
 };
 
+/// Force of a spring over its relative displacement, of a dashpot over its relative velocity, and what it acts on.
+struct SpringProperty {
+  std::array<std::int32_t, 2> freedom{-1, -1};  // degrees of freedom of the first and second node; -1: along the line between them
+  double slope = 0.0;                           // a straight line through the origin, where `table` is empty
+  std::vector<std::array<double, 2>> table;     // (relative displacement or velocity, force), rising; constant beyond its ends
+};
+
 enum class HourglassControl { enhanced, stiffness };
 
 struct Section {
-  enum class Kind { solid, membrane, truss, mass, rotary_inertia } kind = Kind::solid;
+  enum class Kind { solid, membrane, truss, mass, rotary_inertia, spring, dashpot } kind = Kind::solid;
   std::string element_set;
   std::int32_t material = -1;     // -1: none, or composite
   std::int32_t orientation = -1;  // row of Model::orientations, -1: the default directions
@@ -141,6 +148,7 @@ struct Section {
   double hourglass_scale = 1.0;
   double mass = 0.0;                    // MASS elements
   std::array<double, 6> inertia{};      // ROTARYI: I11 I22 I33 I12 I13 I23 about the node
+  SpringProperty spring;                // springs and dashpots
   Location location;
 };
 
