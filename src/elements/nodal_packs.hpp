@@ -1,6 +1,7 @@
 // Between nodal arrays (4 doubles a node) and packs of elements: transposes in registers instead of strided loads.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <cstring>
 
@@ -46,9 +47,8 @@ inline Row high_half(const Wide& a) {
 
 }  // namespace nodal_packs_detail
 
-/// The vectors (x, y, z) of one node of eight elements; `nodes` holds the local node of the first element, that of the
-/// next element follows `stride` further on.
-inline Vector3<Pack> gather(const double* nodal, const std::int32_t* nodes, int stride) {
+/// All four values of one node of eight elements, a quaternion say; `nodes` and `stride` as in gather.
+inline std::array<Pack, 4> gather_four(const double* nodal, const std::int32_t* nodes, int stride) {
   using namespace nodal_packs_detail;
   const auto row = [&](int lane) { return load_row(nodal + 4 * static_cast<std::ptrdiff_t>(nodes[lane * stride])); };
   const Wide a0 = join(row(0), row(4)), a1 = join(row(1), row(5)), a2 = join(row(2), row(6)), a3 = join(row(3), row(7));
@@ -56,9 +56,17 @@ inline Vector3<Pack> gather(const double* nodal, const std::int32_t* nodes, int 
   const Wide xz23 = __builtin_shufflevector(a2, a3, 0, 8, 2, 10, 4, 12, 6, 14);
   const Wide yw01 = __builtin_shufflevector(a0, a1, 1, 9, 3, 11, 5, 13, 7, 15);
   const Wide yw23 = __builtin_shufflevector(a2, a3, 1, 9, 3, 11, 5, 13, 7, 15);
-  return {{as_pack(__builtin_shufflevector(xz01, xz23, 0, 1, 8, 9, 4, 5, 12, 13)),
-           as_pack(__builtin_shufflevector(yw01, yw23, 0, 1, 8, 9, 4, 5, 12, 13)),
-           as_pack(__builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15))}};
+  return {as_pack(__builtin_shufflevector(xz01, xz23, 0, 1, 8, 9, 4, 5, 12, 13)),
+          as_pack(__builtin_shufflevector(yw01, yw23, 0, 1, 8, 9, 4, 5, 12, 13)),
+          as_pack(__builtin_shufflevector(xz01, xz23, 2, 3, 10, 11, 6, 7, 14, 15)),
+          as_pack(__builtin_shufflevector(yw01, yw23, 2, 3, 10, 11, 6, 7, 14, 15))};
+}
+
+/// The vectors (x, y, z) of one node of eight elements; `nodes` holds the local node of the first element, that of the
+/// next element follows `stride` further on.
+inline Vector3<Pack> gather(const double* nodal, const std::int32_t* nodes, int stride) {
+  const auto [x, y, z, w] = gather_four(nodal, nodes, stride);
+  return {{x, y, z}};
 }
 
 /// Subtracts `vector` of eight elements from `force`, each addend rounded by its node's constant (the fourth component,

@@ -1,5 +1,5 @@
-// *ELASTIC, TYPE=LAMINA: an orthotropic ply in plane stress. Plane form only. G13 and G23 are read because the
-// keyword's data line has them; they govern transverse shear, which membranes do not have.
+// *ELASTIC, TYPE=LAMINA: an orthotropic ply in plane stress. Plane form only. G13 and G23 govern transverse shear in shells;
+// membranes have none.
 #include "materials/plane_elastic.hpp"
 #include "model/diagnostics.hpp"
 
@@ -25,10 +25,11 @@ const RegisterLaw registered(
                     {"E2", 0.0, unbounded, "Young's modulus across the fibres, force/area"},
                     {"nu12", -unbounded, unbounded, "major Poisson's ratio: strain 2 by stress 1"},
                     {"G12", 0.0, unbounded, "in-plane shear modulus, force/area"},
-                    {"G13", from_zero, unbounded, "transverse shear modulus, force/area; without effect in membranes"},
-                    {"G23", from_zero, unbounded, "transverse shear modulus, force/area; without effect in membranes"}},
+                    {"G13", from_zero, unbounded, "transverse shear modulus, force/area"},
+                    {"G23", from_zero, unbounded, "transverse shear modulus, force/area"}},
      .plane = [](Parameters p) { return make_plane_law(plane_form(p)); },
-     .lamina_stiffness = [](Parameters p, std::span<double, 9> q) { plane_form(p).copy_to(q); }});
+     .lamina_stiffness = [](Parameters p, std::span<double, 9> q) { plane_form(p).copy_to(q); },
+     .transverse_shear = [](Parameters p) { return std::array{p[4], p[5]}; }});
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 // Adding a law = its own header and source file in this folder, ending in one line of registration.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string>
@@ -75,6 +76,8 @@ struct MaterialLaw {
   /// Plane-stress stiffness Q (row-major 3 x 3, material directions) for lamination theory; null where not linear
   /// elastic.
   void (*lamina_stiffness)(std::span<const double> parameters, std::span<double, 9> stiffness) = nullptr;
+  /// Moduli G13 and G23 of transverse shear in shells; null: both are the shear modulus in the plane, dS12 / d(2E12) at rest.
+  std::array<double, 2> (*transverse_shear)(std::span<const double> parameters) = nullptr;
 };
 
 /// The law of that name, or nullptr.

@@ -85,7 +85,8 @@ const RegisterLaw engineering_constants(
      .solid = [](Parameters p) { return make_solid_law(from_engineering_constants(p)); },
      .plane = [](Parameters p) { return make_plane_law(plane_form(from_engineering_constants(p))); },
      .lamina_stiffness = [](Parameters p,
-                            std::span<double, 9> q) { plane_form(from_engineering_constants(p)).copy_to(q); }});
+                            std::span<double, 9> q) { plane_form(from_engineering_constants(p)).copy_to(q); },
+     .transverse_shear = [](Parameters p) { return std::array{p[7], p[8]}; }});
 
 const RegisterLaw orthotropic(
     {.name = "orthotropic",
@@ -94,7 +95,8 @@ const RegisterLaw orthotropic(
      .parameters = moduli_parameters(),
      .solid = [](Parameters p) { return make_solid_law(from_moduli(p)); },
      .plane = [](Parameters p) { return make_plane_law(plane_form(from_moduli(p))); },
-     .lamina_stiffness = [](Parameters p, std::span<double, 9> q) { plane_form(from_moduli(p)).copy_to(q); }});
+     .lamina_stiffness = [](Parameters p, std::span<double, 9> q) { plane_form(from_moduli(p)).copy_to(q); },
+     .transverse_shear = [](Parameters p) { return std::array{p[7], p[8]}; }});
 
 }  // namespace
 

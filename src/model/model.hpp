@@ -28,6 +28,7 @@ struct NodeTable {
   std::vector<std::int64_t> id;
   std::vector<Point> coordinates;
   std::vector<Location> location;
+  std::vector<double> thickness;  // *NODAL THICKNESS of shells, a value a node; empty: none given
   std::unordered_map<std::int64_t, std::int32_t> row_of_id;
 
   std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
@@ -40,6 +41,7 @@ struct ElementTable {
   std::vector<std::int32_t> connectivity;
   std::vector<std::int32_t> section;
   std::vector<Location> location;
+  std::vector<Point> corner_normal;  // shells: unit normals of the smooth surface, as connectivity; empty: those of the elements
 
   std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
 };
@@ -120,11 +122,24 @@ struct NodalTransform {
   Orientation directions;
 };
 
-/// One ply of a composite membrane: `angle` (radians) from the first local direction to the ply's first direction.
+/// One ply of a composite membrane or shell, from SNEG to SPOS: `angle` (radians) from the first local direction to the ply's own.
 struct Ply {
   double thickness = 0.0;
   std::int32_t material = -1;
   double angle = 0.0;
+  int points = 3;  // shells: integration points through its thickness
+};
+
+/// What only shells want to know of their section.
+struct ShellOptions {
+  int points = 5;                // through the thickness; composites: see Ply
+  bool gauss = false;            // Gauss's quadrature through the thickness in place of Simpson's
+  double offset = 0.0;           // from the middle surface to the nodes along the normal, relative to the thickness
+  bool nodal_thickness = false;  // from NodeTable::thickness
+  bool general = false;          // *SHELL GENERAL SECTION: integrated once, always elastic
+  std::vector<double> stiffness;         // general: upper triangle, column by column, of (N11 N22 N12 M11 M22 M12) by (E11 E22 2E12 K11 K22 2K12)
+  std::vector<double> transverse_shear;  // K11 K22 K12, force / length; empty: from the materials
+  double mass_per_area = 0.0;            // general: beside that of the materials
 };
 
 /// Force of a spring over its relative displacement, of a dashpot over its relative velocity, and what it acts on.
@@ -137,13 +152,14 @@ struct SpringProperty {
 enum class HourglassControl { enhanced, stiffness };
 
 struct Section {
-  enum class Kind { solid, membrane, truss, mass, rotary_inertia, spring, dashpot } kind = Kind::solid;
+  enum class Kind { solid, membrane, shell, truss, mass, rotary_inertia, spring, dashpot } kind = Kind::solid;
   std::string element_set;
   std::int32_t material = -1;     // -1: none, or composite
   std::int32_t orientation = -1;  // row of Model::orientations, -1: the default directions
-  double thickness = 1.0;         // membranes: total thickness
+  double thickness = 1.0;         // membranes and shells: total thickness
   double area = 1.0;              // trusses
-  std::vector<Ply> plies;         // composite membranes
+  std::vector<Ply> plies;         // composite membranes and shells
+  ShellOptions shell;
   HourglassControl hourglass = HourglassControl::enhanced;
   double hourglass_scale = 1.0;
   double mass = 0.0;                    // MASS elements

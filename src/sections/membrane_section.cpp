@@ -10,7 +10,16 @@ namespace balocco {
 
 namespace {
 
-/// What the law bounds its tangent with at zero strain: PointBatch::shear_modulus, doubled.
+void add_initial_moduli(MembraneSection& result) {
+  std::vector<double> history(result.law->history_size(), 0.0);
+  const std::array<double, 3> undeformed{};
+  std::array<double, 3> stress;
+  result.initial_modulus = undeformed_modulus(*result.law, history);
+  result.law->tangent(undeformed, history, stress, result.initial_stiffness);
+}
+
+}  // namespace
+
 double undeformed_modulus(const Law<PointKind::plane>& law, std::span<const double> history) {
   PointBatch<PointKind::plane> points;
   points.count = pack_size;
@@ -23,16 +32,6 @@ double undeformed_modulus(const Law<PointKind::plane>& law, std::span<const doub
   law.stress(points);
   return 2.0 * points.shear_modulus[0];
 }
-
-void add_initial_moduli(MembraneSection& result) {
-  std::vector<double> history(result.law->history_size(), 0.0);
-  const std::array<double, 3> undeformed{};
-  std::array<double, 3> stress;
-  result.initial_modulus = undeformed_modulus(*result.law, history);
-  result.law->tangent(undeformed, history, stress, result.initial_stiffness);
-}
-
-}  // namespace
 
 MembraneSection membrane_section(const Model& model, const Section& section) {
   const auto fail = [&](const std::string& what) {

@@ -18,6 +18,9 @@ struct MembraneSection {
   double initial_modulus = 0.0;        // 2 * shear_modulus that the law tells for the undeformed state
 };
 
+/// What a law bounds its tangent with at zero strain: PointBatch::shear_modulus, doubled. `history` is that of a virgin point.
+double undeformed_modulus(const Law<PointKind::plane>& law, std::span<const double> history);
+
 /// @throws InputError if the material is missing, has no plane-stress form, or the thickness is not positive.
 MembraneSection membrane_section(const Model& model, const Section& section);
 

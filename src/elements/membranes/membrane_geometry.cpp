@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "elements/element_type.hpp"
+#include "elements/surface_directions.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -70,33 +71,15 @@ Vector interpolate(const Element& element, const std::array<double, 4>& weight) 
   return sum;
 }
 
-/// The axis of an orientation that becomes local direction 1 once projected.
-Vector orientation_axis(const Orientation& orientation, const Vector& point) {
-  const int axis = (orientation.rotation_axis + 1) % 3;
-  if (orientation.system == Orientation::System::rectangular || axis == 2) return vector_of(orientation.axes[axis]);
-  const Vector line = vector_of(orientation.axes[2]);
-  const Vector arm = point - vector_of(orientation.origin);
-  const Vector radial = arm - dot(arm, line) * line;
-  return axis == 0 ? radial : cross(line, radial);
-}
-
-/// Local directions at `point` of the surface with unit `normal` (Abaqus's rule where the section has no orientation).
+/// Local directions at `point` of the surface with unit `normal`.
 void set_directions(const Element& element, const Vector& point, const Vector& normal, MembranePoint& result) {
-  Vector axis{{1.0, 0.0, 0.0}};
-  double angle = 0.0;
-  if (element.section.orientation >= 0) {
-    const Orientation& orientation = element.model.orientations[element.section.orientation];
-    axis = orientation_axis(orientation, point);
-    angle = orientation.additional_rotation;
-  } else if (std::hypot(normal[1], normal[2]) < std::sin(0.1 * M_PI / 180.0)) {
-    axis = {{0.0, 0.0, 1.0}};
-  }
-  const Vector projected = axis - dot(axis, normal) * normal;
-  if (!(length(projected) > 1e-6 * length(axis)))
+  const auto orientation = element.section.orientation;
+  const auto directions =
+      surface_directions(orientation < 0 ? nullptr : &element.model.orientations[orientation], point, normal);
+  if (!directions)
     element.fail("has a normal along the direction that its *ORIENTATION projects onto it; choose another axis there");
-  const Vector first = unit(projected), second = cross(normal, first);
-  result.direction1 = std::cos(angle) * first + std::sin(angle) * second;
-  result.direction2 = cross(normal, result.direction1);
+  result.direction1 = directions->first;
+  result.direction2 = directions->second;
 }
 
 MembranePoint integration_point(const Element& element, const Shape4& shape, double weight) {

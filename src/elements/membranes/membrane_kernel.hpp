@@ -6,10 +6,9 @@
 #pragma once
 
 #include <array>
-#include <type_traits>
 
+#include "elements/record_reference.hpp"
 #include "math/dual.hpp"
-#include "math/pack.hpp"
 #include "math/tensor.hpp"
 
 namespace balocco {
@@ -30,23 +29,6 @@ struct MembraneLayout {
   static constexpr int mass_gamma = viscosity + 1;              // quadrilaterals: V sum gamma^2 / m, coupling, max |g|, residual
   static constexpr int size = mass_gamma + (quadrilateral ? 4 : 0);
 };
-
-/// Reference data stay plain doubles beside duals: they have no derivative.
-template <class T>
-using Coefficient = std::conditional_t<std::is_same_v<T, Pack>, Pack, double>;
-
-template <class T>
-Coefficient<T> reference_value(const double* base, int component) {
-  if constexpr (std::is_same_v<T, Pack>)
-    return load(base + component * pack_size);
-  else
-    return base[component * pack_size];
-}
-
-template <class C, class T>
-Vector3<T> scaled(const C& factor, const Vector3<T>& v) {
-  return {{factor * v[0], factor * v[1], factor * v[2]}};
-}
 
 template <class T>
 struct SurfaceTangents {
