@@ -81,12 +81,10 @@ class SectionModuli {
     }
     if (section.material < 0) return 0.0;
     const Material& material = model_.materials[section.material];
-    const MaterialLaw* law = find_material_law(material.law);
-    if (law == nullptr) return 0.0;
-    if (section.kind == Section::Kind::solid && law->solid != nullptr)
-      return modulus_at_rest<PointKind::solid>(*law->solid(material.parameters));
-    if (section.kind == Section::Kind::truss && law->line != nullptr)
-      return section.area * modulus_at_rest<PointKind::line>(*law->line(material.parameters));
+    if (section.kind == Section::Kind::solid)
+      if (const auto law = make_law<PointKind::solid>(material)) return modulus_at_rest(*law);
+    if (section.kind == Section::Kind::truss)
+      if (const auto law = make_law<PointKind::line>(material)) return section.area * modulus_at_rest(*law);
     return 0.0;
   }
 

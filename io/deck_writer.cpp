@@ -9,7 +9,7 @@
 
 #include "deck/writer.hpp"
 #include "elements/element_type.hpp"
-#include "materials/material_law.hpp"
+#include "materials/material_option.hpp"
 
 namespace balocco {
 
@@ -221,9 +221,22 @@ void Writer::materials() {
     if (law == nullptr) continue;
     // Abaqus names the variants of *ELASTIC by TYPE and those of the other keywords by a flag.
     const char* separator = law->variant.empty() ? "" : law->keyword == "ELASTIC" ? ", TYPE=" : ", ";
-    line("*{}{}{}", law->keyword, separator, law->variant);
+    line("*{}{}{}{}{}", law->keyword, separator, law->variant, law->order > 0 ? fmt::format(", N={}", law->order) : "",
+         material.instantaneous ? ", MODULI=INSTANTANEOUS" : "");
     values(material.parameters);
+    for (const auto& option : material.options) material_option(option);
   }
+}
+
+void Writer::material_option(const MaterialOption& option) {
+  const OptionSpec& spec = *find_material_option(option.name);
+  std::string keyword = "*" + spec.keyword;
+  if (!spec.selector.empty()) keyword += ", " + spec.selector + "=" + spec.variant;
+  for (const auto& word : spec.words) keyword += ", " + word.name + (word.value.empty() ? "" : "=" + word.value);
+  for (std::size_t i = 0; i < option.settings.size(); ++i)
+    if (option.settings[i] != 0.0) keyword += fmt::format(", {}={}", spec.settings[i].name, option.settings[i]);
+  line("{}", keyword);
+  for (const auto& row : option.rows) values(row);
 }
 
 void Writer::section_line(const char* keyword, const Section& section, std::size_t row, const std::string& set) {

@@ -2,12 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "deck/builder.hpp"
 #include "deck/groups.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
-#include "materials/material_law.hpp"
+#include "materials/material_option.hpp"
 
 namespace balocco::deck {
 
@@ -57,6 +58,30 @@ std::vector<const MaterialLaw*> laws_of(std::string_view keyword) {
   return laws;
 }
 
+std::vector<const OptionSpec*> options_of(std::string_view keyword) {
+  std::vector<const OptionSpec*> options;
+  for (const auto* option : material_options()) {
+    if (squeeze(option->keyword) == keyword) options.push_back(option);
+  }
+  return options;
+}
+
+/// Of the orders N that a variant exists in, the one that the keyword line asks for (1 if it does not say).
+const MaterialLaw* of_order(Builder& builder, const Block& block, const std::vector<const MaterialLaw*>& variants) {
+  if (variants.size() == 1 && variants[0]->order == 0 && !block.has("N")) return variants[0];
+  const double order = block.real("N", 1.0);
+  int greatest = 0;
+  for (const auto* law : variants) {
+    if (law->order == order) return law;
+    greatest = std::max(greatest, law->order);
+  }
+  builder.error(block, block.location,
+                greatest == 0 ? fmt::format("{} has no order; remove N", variants[0]->variant)
+                              : fmt::format("N = {} is not supported; {} takes N = 1 to {}", order,
+                                            variants[0]->variant, greatest));
+  return nullptr;
+}
+
 /// The variant that the parameters choose: TYPE=VARIANT or the variant as a flag; the unnamed one without either.
 const MaterialLaw* chosen_law(Builder& builder, const Block& block) {
   const auto laws = laws_of(block.keyword);
@@ -65,13 +90,16 @@ const MaterialLaw* chosen_law(Builder& builder, const Block& block) {
     const std::string variant = squeeze(law->variant);
     if (!variant.empty() && (block.has(law->variant) || squeeze(block.value("TYPE")) == variant)) chosen.push_back(law);
   }
-  if (chosen.size() == 1) return chosen[0];
+  const bool one_variant =
+      std::ranges::all_of(chosen, [&](const auto* law) { return law->variant == chosen[0]->variant; });
+  if (!chosen.empty() && one_variant) return of_order(builder, block, chosen);
   if (chosen.empty()) {
     for (const auto* law : laws) {
       if (law->variant.empty() || squeeze(law->variant) == "ISOTROPIC") return law;
     }
     std::vector<std::string> names;
-    for (const auto* law : laws) names.push_back(law->variant);
+    for (const auto* law : laws)
+      if (names.empty() || names.back() != law->variant) names.push_back(law->variant);
     builder.error(block, block.location, "the law is not chosen; add one of " + join(names));
     return nullptr;
   }
@@ -83,12 +111,48 @@ bool within(const ParameterSpec& spec, double value) {
   return value > spec.minimum && value < spec.maximum;
 }
 
+std::string out_of_range(const ParameterSpec& spec, double value) {
+  return fmt::format("{} = {} is out of range: {} must lie between {} and {}; correct it", spec.name, value,
+                     spec.description, spec.minimum, spec.maximum);
+}
+
+/// Reads the declared values from data line `line` on, eight to a line as Abaqus has them; `line` is then the next one.
+/// What is left out at the end is zero where that is in range.
+std::optional<std::vector<double>> read_values(Builder& builder, const Block& block, std::size_t& line,
+                                               const std::vector<ParameterSpec>& specs) {
+  std::vector<double> values;
+  int field = 0;
+  std::optional<Row> row;
+  row.emplace(builder, block, block.lines[line++]);
+  const auto advance = [&] {
+    if (field < 8 || line >= block.lines.size()) return;
+    row.emplace(builder, block, block.lines[line++]);
+    field = 0;
+  };
+  for (const auto& spec : specs) {
+    advance();
+    const double value = row->has(field) || !within(spec, 0.0)
+                             ? row->real(field, fmt::format("{}, {}", spec.name, spec.description).c_str())
+                             : 0.0;
+    if (!row->ok()) return std::nullopt;
+    if (!within(spec, value)) {
+      row->error(out_of_range(spec, value));
+      return std::nullopt;
+    }
+    values.push_back(value);
+    ++field;
+  }
+  if (row->has(field)) row->real(field, "temperature");  // one set holds for all temperatures
+  row->at_most(field + 1);
+  return row->ok() ? std::optional(values) : std::nullopt;
+}
+
 /// Abaqus takes D1 = 0 for incompressible; no element here is, so a bulk modulus is put in its place.
 void warn_if_incompressible(Builder& builder, const Block& block, const MaterialLaw& law) {
   if (block.keyword != "HYPERELASTIC") return;
   for (std::size_t i = 0; i < law.parameters.size(); ++i) {
     const ParameterSpec& spec = law.parameters[i];
-    if (spec.name.starts_with('D') && current(builder).parameters[i] == 0.0) {
+    if (spec.name == "D1" && current(builder).parameters[i] == 0.0) {
       builder.warning(block, block.location, fmt::format("{} is zero or left out ({})", spec.name, spec.description));
     }
   }
@@ -103,35 +167,89 @@ void read_law(Builder& builder, const Block& block) {
                          fmt::format("material {} already has the law {}; keep one", material.name, material.law));
   }
   material.law = law->name;
+  material.instantaneous = squeeze(block.value("MODULI")) == "INSTANTANEOUS";
   if (block.lines.empty()) return builder.error(block, block.location, "the parameters are missing; add a data line");
   std::size_t line = 0;
-  int field = 0;
-  std::optional<Row> row;
-  row.emplace(builder, block, block.lines[0]);
-  const auto advance = [&] {  // Abaqus data lines hold eight values
-    if (field < 8 || line + 1 >= block.lines.size()) return;
-    row.emplace(builder, block, block.lines[++line]);
-    field = 0;
-  };
-  for (const auto& spec : law->parameters) {
-    advance();
-    // What is left out is zero, as in Abaqus, where the law allows that.
-    const double value = row->has(field) || !within(spec, 0.0)
-                             ? row->real(field, fmt::format("{}, {}", spec.name, spec.description).c_str())
-                             : 0.0;
-    if (!row->ok()) return;
-    if (!within(spec, value)) {
-      return row->error(fmt::format("{} = {} is out of range: {} must lie between {} and {}; correct it", spec.name,
-                                    value, spec.description, spec.minimum, spec.maximum));
-    }
-    material.parameters.push_back(value);
-    ++field;
-  }
-  advance();
-  if (row->has(field)) row->real(field, "temperature");  // one set holds for all temperatures
-  row->at_most(field + 1);
-  if (line + 1 < block.lines.size()) no_tables(builder, block, block.lines[line + 1].location);
+  const auto values = read_values(builder, block, line, law->parameters);
+  if (!values) return;
+  material.parameters = *values;
+  if (line < block.lines.size()) no_tables(builder, block, block.lines[line].location);
   warn_if_incompressible(builder, block, *law);
+}
+
+const OptionSpec* chosen_option(Builder& builder, const Block& block) {
+  const auto options = options_of(block.keyword);
+  std::vector<std::string> variants;
+  for (const auto* option : options) {
+    if (option->selector.empty()) return option;
+    const std::string chosen = squeeze(block.value(option->selector));
+    if (chosen.empty() ? option->is_default : chosen == squeeze(option->variant)) return option;
+    variants.push_back(option->variant);
+  }
+  builder.error(block, block.location, fmt::format("{} is missing; give one of {}", options[0]->selector, join(variants)));
+  return nullptr;
+}
+
+/// The words that must stand as they are, and the numbers of the keyword line. @return false if something is wrong (told).
+bool read_settings(Builder& builder, const Block& block, const OptionSpec& option, MaterialOption& result) {
+  for (const auto& word : option.words) {
+    if (block.has(word.name)) continue;
+    builder.error(block, block.location,
+                  word.value.empty() ? fmt::format("only the form with {} is supported; add it", word.name)
+                                     : fmt::format("only {}={} is supported; add it", word.name, word.value));
+    return false;
+  }
+  for (const auto& spec : option.settings) {
+    const double value = block.has(spec.name) ? block.real(spec.name, 0.0) : 0.0;
+    if (!within(spec, value)) {
+      builder.error(block, block.location, out_of_range(spec, value));
+      return false;
+    }
+    result.settings.push_back(value);
+  }
+  for (const auto* other : options_of(block.keyword)) {  // what belongs to another variant of the keyword
+    for (const auto& spec : other->settings) {
+      const bool known = std::ranges::any_of(option.settings, [&](const auto& own) { return own.name == spec.name; });
+      if (known || !block.has(spec.name)) continue;
+      builder.error(block, block.location,
+                    fmt::format("{} has no meaning with {}={}; remove it", spec.name, option.selector, option.variant));
+      return false;
+    }
+  }
+  return true;
+}
+
+std::vector<ParameterSpec> columns_of(const OptionSpec& option, const MaterialOption& result) {
+  std::vector<ParameterSpec> columns = option.columns;
+  if (option.repeated_columns == 0) return columns;
+  const auto first = columns.size() - option.repeated_columns;
+  for (int group = 1; group < static_cast<int>(result.settings[0]); ++group)
+    for (int i = 0; i < option.repeated_columns; ++i) columns.push_back(option.columns[first + i]);
+  return columns;
+}
+
+void read_option(Builder& builder, const Block& block) {
+  const OptionSpec* option = chosen_option(builder, block);
+  if (option == nullptr) return;
+  MaterialOption result;
+  result.name = option->name;
+  if (!read_settings(builder, block, *option, result)) return;
+  auto& present = current(builder).options;
+  for (const auto& other : present) {
+    const OptionSpec* spec = find_material_option(other.name);
+    if (spec->keyword != option->keyword || (spec == option && option->repeatable)) continue;
+    return builder.error(block, block.location, fmt::format("material {} has it already; keep one", current(builder).name));
+  }
+  if (block.lines.empty()) return builder.error(block, block.location, "the parameters are missing; add a data line");
+  const auto columns = columns_of(*option, result);
+  std::size_t line = 0;
+  do {
+    const auto values = read_values(builder, block, line, columns);
+    if (!values) return;
+    result.rows.push_back(*values);
+  } while (option->table && line < block.lines.size());
+  if (line < block.lines.size()) return no_tables(builder, block, block.lines[line].location);
+  present.push_back(std::move(result));
 }
 
 const RegisterKeyword material{{"MATERIAL", Phase::definitions, Place::model, {required(name("NAME"))}, read_material}};
@@ -139,25 +257,59 @@ const RegisterKeyword density{{"DENSITY", Phase::definitions, Place::model, {}, 
 const RegisterKeyword damping{
     {"DAMPING", Phase::definitions, Place::model, {real("ALPHA"), real("BETA")}, read_damping, "MATERIAL"}};
 
+/// Parameters of a keyword line, each once though several variants declare it.
+class Parameters {
+ public:
+  explicit Parameters(KeywordRule& rule) : rule_(rule) {}
+  void add(ParameterRule parameter) {
+    const bool known =
+        std::ranges::any_of(rule_.parameters, [&](const auto& rule) { return rule.name == parameter.name; });
+    if (!known) rule_.parameters.push_back(std::move(parameter));
+  }
+
+ private:
+  KeywordRule& rule_;
+};
+
+void register_law_keyword(const std::string& keyword) {
+  KeywordRule rule{keyword, Phase::definitions, Place::model, {}, read_law, "MATERIAL"};
+  Parameters parameters(rule);
+  std::vector<std::string> variants;
+  for (const auto* law : laws_of(squeeze(keyword))) {
+    if (law->variant.empty()) continue;
+    if (std::ranges::find(variants, law->variant) == variants.end()) variants.push_back(law->variant);
+    parameters.add(flag(law->variant));
+    if (law->order > 0) parameters.add(integer("N"));
+  }
+  if (std::ranges::find(variants, "ISOTROPIC") == variants.end()) variants.push_back("ISOTROPIC");
+  parameters.add(choice("TYPE", variants));
+  parameters.add(choice("MODULI", {"LONG TERM", "INSTANTANEOUS"}));
+  const RegisterKeyword registered{std::move(rule)};
+}
+
+void register_option_keyword(const std::string& keyword) {
+  KeywordRule rule{keyword, Phase::definitions, Place::model, {}, read_option, "MATERIAL"};
+  Parameters parameters(rule);
+  std::vector<std::string> variants;
+  for (const auto* option : options_of(squeeze(keyword))) variants.push_back(option->variant);
+  for (const auto* option : options_of(squeeze(keyword))) {
+    if (!option->selector.empty()) parameters.add(choice(option->selector, variants));
+    for (const auto& word : option->words)
+      parameters.add(word.value.empty() ? flag(word.name) : choice(word.name, {word.value}));
+    for (const auto& setting : option->settings) parameters.add(real(setting.name));
+  }
+  const RegisterKeyword registered{std::move(rule)};
+}
+
 }  // namespace
 
 void register_material_laws() {
-  std::vector<std::string> keywords;
-  for (const auto* law : material_laws()) {
-    if (std::find(keywords.begin(), keywords.end(), law->keyword) == keywords.end()) keywords.push_back(law->keyword);
-  }
-  for (const auto& keyword : keywords) {
-    KeywordRule rule{keyword, Phase::definitions, Place::model, {}, read_law, "MATERIAL"};
-    std::vector<std::string> variants;
-    for (const auto* law : laws_of(squeeze(keyword))) {
-      if (law->variant.empty()) continue;
-      variants.push_back(law->variant);
-      rule.parameters.push_back(flag(law->variant));
-    }
-    if (std::find(variants.begin(), variants.end(), "ISOTROPIC") == variants.end()) variants.push_back("ISOTROPIC");
-    rule.parameters.push_back(choice("TYPE", variants));
-    const RegisterKeyword registered{std::move(rule)};
-  }
+  std::set<std::string> keywords;
+  for (const auto* law : material_laws()) keywords.insert(law->keyword);
+  for (const auto& keyword : keywords) register_law_keyword(keyword);
+  keywords.clear();
+  for (const auto* option : material_options()) keywords.insert(option->keyword);
+  for (const auto& keyword : keywords) register_option_keyword(keyword);
 }
 
 }  // namespace balocco::deck

@@ -41,6 +41,7 @@ class Writer {
   void surface(const Surface& surface);
   void analytical(const Surface& surface);
   void materials();
+  void material_option(const MaterialOption& option);
   void sections();
   void spring(const char* keyword, const Section& section, std::size_t row, const std::string& set);
   void section(std::size_t row);

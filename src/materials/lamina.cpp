@@ -2,6 +2,7 @@
 // membranes have none.
 #include "materials/plane_elastic.hpp"
 #include "model/diagnostics.hpp"
+#include "model/model.hpp"
 
 namespace balocco {
 
@@ -27,7 +28,7 @@ const RegisterLaw registered(
                     {"G12", 0.0, unbounded, "in-plane shear modulus, force/area"},
                     {"G13", from_zero, unbounded, "transverse shear modulus, force/area"},
                     {"G23", from_zero, unbounded, "transverse shear modulus, force/area"}},
-     .plane = [](Parameters p) { return make_plane_law(plane_form(p)); },
+     .plane = [](const Material& m) { return make_plane_law(plane_form(m.parameters)); },
      .lamina_stiffness = [](Parameters p, std::span<double, 9> q) { plane_form(p).copy_to(q); },
      .transverse_shear = [](Parameters p) { return std::array{p[4], p[5]}; }});
 

@@ -3,6 +3,8 @@
 #include <functional>
 #include <map>
 
+#include "model/model.hpp"
+
 namespace balocco {
 
 namespace {
@@ -25,6 +27,18 @@ std::vector<const MaterialLaw*> material_laws() {
   for (const auto& entry : table()) laws.push_back(&entry.second);
   return laws;
 }
+
+template <PointKind kind>
+std::unique_ptr<Law<kind>> make_law(const Material& material) {
+  const MaterialLaw* law = find_material_law(material.law);
+  const LawMaker<kind> make = law == nullptr ? nullptr : law->maker<kind>();
+  return make == nullptr ? nullptr : make(material);
+}
+
+template std::unique_ptr<Law<PointKind::solid>> make_law<PointKind::solid>(const Material&);
+template std::unique_ptr<Law<PointKind::plane>> make_law<PointKind::plane>(const Material&);
+template std::unique_ptr<Law<PointKind::line>> make_law<PointKind::line>(const Material&);
+template std::unique_ptr<Law<PointKind::fibre>> make_law<PointKind::fibre>(const Material&);
 
 RegisterLaw::RegisterLaw(MaterialLaw law) {
   const std::string name = law.name;

@@ -2,6 +2,7 @@
 
 #include "materials/plane_elastic.hpp"
 #include "materials/rubber_plane_stress.hpp"
+#include "model/model.hpp"
 
 namespace balocco {
 
@@ -25,9 +26,9 @@ const RegisterLaw registered(
      .parameters = {{"C10", 0.0, unbounded, "first coefficient, force/area; initial shear modulus is 2 (C10 + C01)"},
                     {"C01", from_zero, unbounded, "second coefficient, force/area"},
                     {"D1", from_zero, unbounded, "2 / bulk modulus, area/force; 0: bulk modulus = 20 x shear modulus"}},
-     .solid = [](Parameters p) { return make_solid_law(solid_form(p)); },
-     .plane = [](Parameters p) { return make_plane_law(RubberPlane{constants(p)}); },
-     .line = [](Parameters p) { return make_line_law(RubberLine{constants(p)}); }});
+     .solid = [](const Material& m) { return make_solid_law(solid_form(m.parameters)); },
+     .plane = [](const Material& m) { return make_plane_law(RubberPlane{constants(m.parameters)}); },
+     .line = [](const Material& m) { return make_line_law(RubberLine{constants(m.parameters)}); }});
 
 }  // namespace
 

@@ -2,6 +2,7 @@
 
 #include "materials/plane_elastic.hpp"
 #include "materials/rubber_plane_stress.hpp"
+#include "model/model.hpp"
 
 namespace balocco {
 
@@ -20,11 +21,11 @@ const RegisterLaw registered({.name = "neo-hooke",
                                              {"D1", from_zero, unbounded,
                                               "2 / bulk modulus, area/force; 0: bulk modulus = 20 x shear modulus"}},
                               .solid =
-                                  [](Parameters p) {
-                                    return make_solid_law(NeoHooke{constants(p).c10, constants(p).bulk});
+                                  [](const Material& m) {
+                                    return make_solid_law(NeoHooke{constants(m.parameters).c10, constants(m.parameters).bulk});
                                   },
-                              .plane = [](Parameters p) { return make_plane_law(RubberPlane{constants(p)}); },
-                              .line = [](Parameters p) { return make_line_law(RubberLine{constants(p)}); }});
+                              .plane = [](const Material& m) { return make_plane_law(RubberPlane{constants(m.parameters)}); },
+                              .line = [](const Material& m) { return make_line_law(RubberLine{constants(m.parameters)}); }});
 
 }  // namespace
 

@@ -6,6 +6,7 @@
 
 #include "materials/plane_elastic.hpp"
 #include "model/diagnostics.hpp"
+#include "model/model.hpp"
 
 namespace balocco {
 
@@ -82,8 +83,8 @@ const RegisterLaw engineering_constants(
      .keyword = "ELASTIC",
      .variant = "ENGINEERING CONSTANTS",
      .parameters = engineering_parameters(),
-     .solid = [](Parameters p) { return make_solid_law(from_engineering_constants(p)); },
-     .plane = [](Parameters p) { return make_plane_law(plane_form(from_engineering_constants(p))); },
+     .solid = [](const Material& m) { return make_solid_law(from_engineering_constants(m.parameters)); },
+     .plane = [](const Material& m) { return make_plane_law(plane_form(from_engineering_constants(m.parameters))); },
      .lamina_stiffness = [](Parameters p,
                             std::span<double, 9> q) { plane_form(from_engineering_constants(p)).copy_to(q); },
      .transverse_shear = [](Parameters p) { return std::array{p[7], p[8]}; }});
@@ -93,8 +94,8 @@ const RegisterLaw orthotropic(
      .keyword = "ELASTIC",
      .variant = "ORTHOTROPIC",
      .parameters = moduli_parameters(),
-     .solid = [](Parameters p) { return make_solid_law(from_moduli(p)); },
-     .plane = [](Parameters p) { return make_plane_law(plane_form(from_moduli(p))); },
+     .solid = [](const Material& m) { return make_solid_law(from_moduli(m.parameters)); },
+     .plane = [](const Material& m) { return make_plane_law(plane_form(from_moduli(m.parameters))); },
      .lamina_stiffness = [](Parameters p, std::span<double, 9> q) { plane_form(from_moduli(p)).copy_to(q); },
      .transverse_shear = [](Parameters p) { return std::array{p[7], p[8]}; }});
 

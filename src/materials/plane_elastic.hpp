@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cmath>
-#include <limits>
 
 #include "materials/law_of.hpp"
 
@@ -82,8 +81,28 @@ struct LineElastic {
   }
 };
 
-/// Exclusive bounds of parameters.
-inline constexpr double unbounded = 1e300;
-inline constexpr double from_zero = -std::numeric_limits<double>::min();  // lets 0 itself pass
+/// S11 = young * E11, S12 = shear * 2E12: a point of a beam's section.
+struct FibreElastic {
+  double young, poisson, shear;
+
+  template <class T>
+  const std::array<T, 2>& prepare(const std::array<T, 2>& strain) const {
+    return strain;
+  }
+  template <class T>
+  std::array<T, 2> stress(const std::array<T, 2>& strain) const {
+    return {young * strain[0], shear * strain[1]};
+  }
+  template <class T>
+  T bound(const std::array<T, 2>&) const {
+    return T(std::fmax(0.5 * young, shear));
+  }
+  double energy(const std::array<double, 2>& strain) const {
+    return 0.5 * (young * strain[0] * strain[0] + shear * strain[1] * strain[1]);
+  }
+  double transverse_stretch(const std::array<double, 2>& strain) const {
+    return std::fmax(1.0 - 2.0 * poisson * strain[0], 0.0);
+  }
+};
 
 }  // namespace balocco

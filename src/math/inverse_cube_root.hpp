@@ -20,10 +20,10 @@ T inverse_cube_root(const T& x) {
   return y + y * (e * (1.0 / 3.0 + e * (2.0 / 9.0)));
 }
 
-template <int N>
-Dual<N> inverse_cube_root(const Dual<N>& x) {
-  const double y = inverse_cube_root(x.value);
-  return Dual<N>::chain(y, -(1.0 / 3.0) * (y / x.value), x);
+template <int N, class Real>
+Dual<N, Real> inverse_cube_root(const Dual<N, Real>& x) {
+  const Real y = inverse_cube_root(x.value);
+  return Dual<N, Real>::chain(y, -(1.0 / 3.0) * (y / x.value), x);
 }
 
 }  // namespace balocco

@@ -146,11 +146,8 @@ void Checker::check_materials() {
       continue;
     }
     try {  // conditions between parameters, such as a positive definite stiffness, are the law's own business
-      if (law->solid != nullptr) {
-        law->solid(material.parameters);
-      } else if (law->plane != nullptr) {
-        law->plane(material.parameters);
-      }
+      make_law<PointKind::solid>(material);
+      make_law<PointKind::plane>(material);
     } catch (const InputError& trouble) {
       error(material.location, fmt::format("*MATERIAL: material {}: {}", material.name, trouble.what()));
     }

@@ -95,6 +95,13 @@ struct Surface {
   Location location;
 };
 
+/// An option of a material beside its elastic law, as materials/material_option.hpp declares it.
+struct MaterialOption {
+  std::string name;                       // "plastic"
+  std::vector<double> settings;           // numbers of the keyword line, in the declared order
+  std::vector<std::vector<double>> rows;  // data lines
+};
+
 struct Material {
   std::string name;
   double density = 0.0;          // 0: not given
@@ -102,6 +109,8 @@ struct Material {
   double damping_beta = 0.0;     // stiffness-proportional Rayleigh damping, time
   std::string law;               // name in the register of materials/material_law.hpp; empty: none given
   std::vector<double> parameters;  // in the order in which the law declares them
+  bool instantaneous = false;      // MODULI=INSTANTANEOUS: `parameters` hold before, not after *VISCOELASTIC has relaxed
+  std::vector<MaterialOption> options;  // in deck order
   Location location;
 };
 

@@ -27,10 +27,8 @@ class LinearPlaneLaw final : public Law<PointKind::plane> {
   explicit LinearPlaneLaw(const PlaneStiffness& stiffness)
       : stiffness_(stiffness), half_greatest_modulus_(0.5 * greatest_modulus(stiffness)) {}
 
-  int history_size() const override { return 0; }
-
   void stress(PointBatch<PointKind::plane>& points) const override {
-    for (int first = 0; first < points.count; first += pack_size) {
+    for (int first = points.first; first < points.first + points.count; first += pack_size) {
       const Pack strain[3] = {load(points.strain[0] + first), load(points.strain[1] + first),
                               load(points.strain[2] + first)};
       for (int i = 0; i < 3; ++i) store(row_times(i, strain), points.stress[i] + first);
@@ -38,19 +36,19 @@ class LinearPlaneLaw final : public Law<PointKind::plane> {
     }
   }
 
-  void tangent(std::span<const double, 3> strain, std::span<double>, std::span<double, 3> stress,
-               std::span<double, 9> stiffness) const override {
+  void tangent(std::span<const double, 3> strain, double, std::span<double>, std::span<double, 3> stress,
+               std::span<double> stiffness) const override {
     for (int i = 0; i < 3; ++i) stress[i] = row_times(i, strain.data());
-    std::copy(stiffness_.begin(), stiffness_.end(), stiffness.begin());
+    if (!stiffness.empty()) std::copy(stiffness_.begin(), stiffness_.end(), stiffness.begin());
   }
 
-  double energy_density(std::span<const double, 3> strain, std::span<const double>) const override {
+  EnergyDensity energy_density(std::span<const double, 3> strain, std::span<const double>) const override {
     double sum = 0.0;
     for (int i = 0; i < 3; ++i) sum += strain[i] * row_times(i, strain.data());
-    return 0.5 * sum;
+    return {0.5 * sum, 0.0, 0.0};
   }
 
-  double transverse_stretch(std::span<const double, 3>) const override { return 1.0; }
+  double transverse_stretch(std::span<const double, 3>, std::span<const double>) const override { return 1.0; }
 
  private:
   template <class T>
@@ -70,7 +68,7 @@ PlaneStiffness ply_stiffness(const Model& model, const Section& section, const P
   if (ply.material < 0) fail("a ply names no material; give each ply one");
   const Material& material = model.materials[ply.material];
   const MaterialLaw* law = find_material_law(material.law);
-  if (law == nullptr || law->lamina_stiffness == nullptr)
+  if (law == nullptr || law->lamina_stiffness == nullptr || !material.options.empty())
     fail(fmt::format("material {} of a ply is not linear elastic; give it *ELASTIC (isotropic or TYPE=LAMINA)", material.name));
   PlaneStiffness stiffness;
   law->lamina_stiffness(material.parameters, stiffness);

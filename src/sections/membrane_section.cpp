@@ -15,7 +15,7 @@ void add_initial_moduli(MembraneSection& result) {
   const std::array<double, 3> undeformed{};
   std::array<double, 3> stress;
   result.initial_modulus = undeformed_modulus(*result.law, history);
-  result.law->tangent(undeformed, history, stress, result.initial_stiffness);
+  result.law->tangent(undeformed, 0.0, history, stress, result.initial_stiffness);
 }
 
 }  // namespace
@@ -51,14 +51,13 @@ MembraneSection membrane_section(const Model& model, const Section& section) {
   } else {
     if (section.material < 0) fail("it names no material; add MATERIAL=NAME");
     const Material& material = model.materials[section.material];
-    const MaterialLaw* law = find_material_law(material.law);
-    if (law == nullptr || law->plane == nullptr)
+    result.law = make_law<PointKind::plane>(material);
+    if (result.law == nullptr)
       fail(fmt::format("material {} has no plane-stress law; give it *ELASTIC or *HYPERELASTIC", material.name));
-    result.law = law->plane(material.parameters);
     result.thickness = section.thickness;
     result.density = material.density;
     result.damping_beta = material.damping_beta;
-    result.linear = law->lamina_stiffness != nullptr;
+    result.linear = find_material_law(material.law)->lamina_stiffness != nullptr && material.options.empty();
     add_initial_moduli(result);
     for (int i = 0; i < 9; ++i) result.damping_stiffness[i] = material.damping_beta * result.initial_stiffness[i];
   }

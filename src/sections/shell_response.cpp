@@ -40,7 +40,8 @@ void shell_resultants(const ShellSection& section, double h, const std::array<do
     const ShellPly& ply = section.plies[layer.ply];
     std::array<double, 3> stress;
     PlaneStiffness tangent;
-    ply.law->tangent(strain_of_layer(section, layer, h, strain), history.subspan(layer.history, ply.law->history_size()), stress, tangent);
+    ply.law->tangent(strain_of_layer(section, layer, h, strain), quasi_static, history.subspan(layer.history, ply.law->history_size()),
+                     stress, tangent);
     stress = stress_in_section(ply, stress);
     if (ply.turned) tangent = rotated_stiffness(tangent, std::atan2(ply.sine, ply.cosine));
     for (int i = 0; i < 3; ++i) {
@@ -56,18 +57,21 @@ void shell_resultants(const ShellSection& section, double h, const std::array<do
   if (!stiffness.empty()) Eigen::Map<Matrix6>(stiffness.data()) = section_stiffness(sum, h);
 }
 
-double shell_energy(const ShellSection& section, double h, const std::array<double, 6>& strain, std::span<const double> history) {
+EnergyDensity shell_energy(const ShellSection& section, double h, const std::array<double, 6>& strain, std::span<const double> history) {
   if (section.linear) {
     const Eigen::Map<const Eigen::Matrix<double, 6, 1>> e(strain.data());
-    return 0.5 * e.dot(section_stiffness(section.stiffness, h) * e);
+    return {0.5 * e.dot(section_stiffness(section.stiffness, h) * e), 0.0, 0.0};
   }
-  double energy = 0.0;
+  EnergyDensity sum;
   for (const ShellLayer& layer : section.layers) {
     const ShellPly& ply = section.plies[layer.ply];
-    energy += layer.weight * h *
-              ply.law->energy_density(strain_of_layer(section, layer, h, strain), history.subspan(layer.history, ply.law->history_size()));
+    const EnergyDensity density =
+        ply.law->energy_density(strain_of_layer(section, layer, h, strain), history.subspan(layer.history, ply.law->history_size()));
+    sum.recoverable += layer.weight * h * density.recoverable;
+    sum.plastic += layer.weight * h * density.plastic;
+    sum.viscous += layer.weight * h * density.viscous;
   }
-  return energy;
+  return sum;
 }
 
 }  // namespace balocco

@@ -33,11 +33,11 @@ class Reader {
   PlyModuli add_ply(const Ply& ply, ShellSection& result) const {
     if (ply.material < 0) fail("it names no material; add MATERIAL=NAME");
     const Material& material = model_.materials[ply.material];
-    const MaterialLaw* law = find_material_law(material.law);
-    if (law == nullptr || law->plane == nullptr)
-      fail(fmt::format("material {} has no plane-stress law; give it *ELASTIC or *HYPERELASTIC", material.name));
     ShellPly shell_ply;
-    shell_ply.law = law->plane(material.parameters);
+    shell_ply.law = make_law<PointKind::plane>(material);
+    if (shell_ply.law == nullptr)
+      fail(fmt::format("material {} has no plane-stress law; give it *ELASTIC or *HYPERELASTIC", material.name));
+    const MaterialLaw* law = find_material_law(material.law);
     shell_ply.turned = ply.angle != 0.0;
     shell_ply.cosine = std::cos(ply.angle);
     shell_ply.sine = std::sin(ply.angle);
@@ -47,7 +47,7 @@ class Reader {
     PlyModuli moduli;
     std::array<double, 3> stress;
     PlaneStiffness own;
-    shell_ply.law->tangent(std::array<double, 3>{}, history, stress, own);
+    shell_ply.law->tangent(std::array<double, 3>{}, 0.0, history, stress, own);
     moduli.stiffness = rotated_stiffness(own, ply.angle);
     const std::array<double, 2> g =
         law->transverse_shear != nullptr ? law->transverse_shear(material.parameters) : std::array{own[8], own[8]};
@@ -57,7 +57,7 @@ class Reader {
     moduli.shear = {c * c * g[0] + s * s * g[1], s * s * g[0] + c * c * g[1], c * s * (g[0] - g[1])};
     moduli.density = material.density;
     moduli.beta = material.damping_beta;
-    result.linear = result.linear && law->lamina_stiffness != nullptr;
+    result.linear = result.linear && law->lamina_stiffness != nullptr && material.options.empty();
     result.damping_beta = std::max(result.damping_beta, material.damping_beta);
     result.plies.push_back(std::move(shell_ply));
     return moduli;

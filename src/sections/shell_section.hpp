@@ -77,7 +77,7 @@ void shell_resultants(const ShellSection& section, double thickness, const std::
                       std::span<double> history, std::array<double, 6>& resultants, std::span<double> stiffness);
 
 /// Recoverable energy per area.
-double shell_energy(const ShellSection& section, double thickness, const std::array<double, 6>& strain,
+EnergyDensity shell_energy(const ShellSection& section, double thickness, const std::array<double, 6>& strain,
                     std::span<const double> history);
 
 /// Nodes and weights of Simpson's (odd count) or Gauss's rule on [-1/2, 1/2].

@@ -101,6 +101,7 @@ void MembraneGroup<corners, points>::add_point(int point, Block& block, const Ex
   batch.history =
       history.data() + point * section_data_.law->history_size() * std::ptrdiff_t{padded_size_} + block.first;
   batch.history_stride = padded_size_;
+  batch.increment = cycle.increment;
   section_data_.law->stress(batch);
 
   for (int pack = 0; pack < block.packs; ++pack) {

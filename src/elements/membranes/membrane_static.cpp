@@ -26,11 +26,13 @@ std::array<Vector3<T>, edges> element_edges(std::span<const std::int32_t> node, 
 
 /// Stress of a strain of any scalar: value from the law, derivatives by the chain rule with the law's tangent.
 template <class T>
-std::array<T, 3> chained_stress(const Law<PointKind::plane>& law, const std::array<T, 3>& strain, std::span<double> history) {
+std::array<T, 3> chained_stress(const Law<PointKind::plane>& law, const std::array<T, 3>& strain, double increment,
+                                std::span<double> history) {
   std::array<double, 3> strain_value, stress_value;
   PlaneStiffness tangent;
   for (int i = 0; i < 3; ++i) strain_value[i] = value_of(strain[i]);
-  law.tangent(strain_value, history, stress_value, tangent);
+  law.tangent(strain_value, increment, history, stress_value,
+              std::is_same_v<T, double> ? std::span<double>() : tangent);
   std::array<T, 3> stress;
   for (int i = 0; i < 3; ++i) {
     stress[i] = T(stress_value[i]);
@@ -72,7 +74,7 @@ bool MembraneGroup<corners, points>::internal_force(std::int32_t element,
     if (q == 0) first_area = area;
     if (!(dot(area, first_area) > 0.0)) return false;  // no area, folded, or not a number
     const std::array<T, 3> strain = Kernel::strain(data, tangents, edge);
-    const auto stress = chained_stress(*section_data_.law, strain, history.subspan(q * law_size, law_size));
+    const auto stress = chained_stress(*section_data_.law, strain, quasi_static, history.subspan(q * law_size, law_size));
     Kernel::add_forces(data, q, tangents, stress, force);
     if constexpr (Layout::one_point_quadrilateral) Kernel::add_hourglass_forces(data, tangents, stress, edge, force);
     history[area_ratio_row(q)] = std::sqrt(metric_determinant(metric(values(tangents))));
@@ -146,18 +148,22 @@ ElementEnergies MembraneGroup<corners, points>::energies(std::int32_t element, c
   for (int q = 0; q < points; ++q) {
     const auto tangents = Kernel::tangents(data, q, edge);
     const auto strain = Kernel::strain(data, tangents, edge);
-    result.strain +=
-        Kernel::volume(data, q) * section_data_.law->energy_density(strain, history.subspan(q * law_size, law_size));
+    const EnergyDensity density =
+        section_data_.law->energy_density(strain, history.subspan(q * law_size, law_size));
+    result.strain += Kernel::volume(data, q) * density.recoverable;
+    result.plastic += Kernel::volume(data, q) * density.plastic;
+    result.viscous += Kernel::volume(data, q) * density.viscous;
     if constexpr (Layout::one_point_quadrilateral) result.hourglass += Kernel::hourglass_energy(data, tangents, edge);
   }
-  result.viscous = history[dissipation_row()];
+  result.viscous += history[dissipation_row()];
   return result;
 }
 
 template <int corners, int points>
 int MembraneGroup<corners, points>::point_components(std::string_view variable) const {
   if (variable == "S" || variable == "LE") return 6;
-  return variable == "MISES" || variable == "SENER" || variable == "STH" ? 1 : 0;
+  if (variable == "MISES" || variable == "SENER" || variable == "STH") return 1;
+  return history_scalar(*section_data_.law, variable) >= 0 ? 1 : 0;
 }
 
 template <int corners, int points>
@@ -170,16 +176,18 @@ void MembraneGroup<corners, points>::point_output(std::string_view variable, std
   const auto edge = element_edges<double, Layout::edges>(ElementGroup::nodes(element), motion.position);
   const auto strain = Kernel::strain(data, Kernel::tangents(data, integration_point, edge), edge);
   const auto law_history = history.subspan(integration_point * law.history_size(), law.history_size());
-  const double thickness_ratio = law.transverse_stretch(strain);
+  const double thickness_ratio = law.transverse_stretch(strain, law_history);
   if (variable == "LE") {
     std::ranges::copy(plane_logarithmic_strain(strain, thickness_ratio), values.begin());
   } else if (variable == "STH") {
     values[0] = section_data_.thickness * thickness_ratio;
   } else if (variable == "SENER") {
-    values[0] = law.energy_density(strain, law_history);
+    values[0] = law.energy_density(strain, law_history).recoverable;
+  } else if (const int row = history_scalar(law, variable); row >= 0) {
+    values[0] = law_history[row];
   } else {
     std::vector<double> scratch(law_history.begin(), law_history.end());
-    const auto stress = plane_cauchy_stress(strain, chained_stress(law, strain, scratch), thickness_ratio);
+    const auto stress = plane_cauchy_stress(strain, chained_stress(law, strain, 0.0, scratch), thickness_ratio);
     if (variable == "S") std::ranges::copy(stress, values.begin());
     if (variable == "MISES") values[0] = mises_stress(stress);
   }

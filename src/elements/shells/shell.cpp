@@ -84,10 +84,11 @@ void ShellGroup<corners, points>::add_linear_point(int point, Block& block) cons
 
 /// The layers of a point of the surface, a batch of elements for each.
 template <int corners, int points>
-void ShellGroup<corners, points>::add_layers(int point, Block& block, std::span<double> history) const {
+void ShellGroup<corners, points>::add_layers(int point, Block& block, double increment, std::span<double> history) const {
   auto& batch = block.batch;
   batch.count = block.packs * pack_size;
   batch.history_stride = padded_size_;
+  batch.increment = increment;
   for (int pack = 0; pack < block.packs; ++pack) block.resultants[pack] = {};
   for (const ShellLayer& layer : section_.layers) {
     const ShellPly& ply = section_.plies[layer.ply];
@@ -241,7 +242,7 @@ StableIncrement ShellGroup<corners, points>::add_forces(Portion portion, const E
     for (int point = 0; point < points; ++point) {
       for (int pack = 0; pack < block.packs; ++pack)
         block.here[pack] = strain_at<Pack>(record(block.first + pack * pack_size), point, block.strain[pack]);
-      section_.linear ? add_linear_point(point, block) : add_layers(point, block, history);
+      section_.linear ? add_linear_point(point, block) : add_layers(point, block, cycle.increment, history);
       for (int pack = 0; pack < block.packs; ++pack)
         add_resultants<Pack>(record(block.first + pack * pack_size), point, block.resultants[pack], block.stress[pack]);
     }

@@ -81,7 +81,7 @@ class ShellGroup final : public ElementGroup {
                       std::span<const double> history, std::span<double> values) const;
 
   void add_linear_point(int point, Block& block) const;
-  void add_layers(int point, Block& block, std::span<double> history) const;
+  void add_layers(int point, Block& block, double increment, std::span<double> history) const;
   void add_viscosity(Block& block, int pack, const ExplicitCycle& cycle, std::span<double> history) const;
   Pack stable_increment(const Block& block, int pack, const ExplicitCycle& cycle) const;
   void finish(Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;

@@ -85,16 +85,17 @@ void ShellGroup<corners, points>::layer_output(std::string_view variable, int po
   const ShellPly& ply = section_.plies[layer.ply];
   const auto strain = layer_strain<double>(ply, layer.height * at.thickness, at.strain.membrane, at.strain.curvature);
   const auto own = history.subspan(point * section_.history_size + layer.history, ply.law->history_size());
-  const double stretch = ply.law->transverse_stretch(strain);
-  if (variable == "LE") {
+  const double stretch = ply.law->transverse_stretch(strain, own);
+  if (const int row = history_scalar(*ply.law, variable); row >= 0) {
+    values[0] = own[row];
+  } else if (variable == "LE") {
     std::ranges::copy(plane_logarithmic_strain(strain, stretch), values.begin());
   } else if (variable == "SENER") {
-    values[0] = ply.law->energy_density(strain, own);
+    values[0] = ply.law->energy_density(strain, own).recoverable;
   } else {
     std::vector<double> scratch(own.begin(), own.end());
     std::array<double, 3> stress;
-    PlaneStiffness tangent;
-    ply.law->tangent(strain, scratch, stress, tangent);
+    ply.law->tangent(strain, 0.0, scratch, stress, {});
     const auto cauchy = plane_cauchy_stress(strain, stress, stretch);
     if (variable == "S") std::ranges::copy(cauchy, values.begin());
     if (variable == "MISES") values[0] = mises_stress(cauchy);
@@ -110,7 +111,8 @@ void ShellGroup<corners, points>::section_output(std::string_view variable, int 
     double stretch = section_.layers.empty() ? 1.0 : 0.0;
     for (const ShellLayer& layer : section_.layers) {
       const ShellPly& ply = section_.plies[layer.ply];
-      stretch += layer.weight * ply.law->transverse_stretch(layer_strain<double>(ply, layer.height * at.thickness, e, k));
+      stretch += layer.weight * ply.law->transverse_stretch(layer_strain<double>(ply, layer.height * at.thickness, e, k),
+                                                            history.subspan(point * section_.history_size + layer.history, ply.law->history_size()));
     }
     values[0] = at.thickness * stretch;
   } else if (variable == "SE") {

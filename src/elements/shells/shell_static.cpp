@@ -208,11 +208,15 @@ ElementEnergies ShellGroup<corners, points>::energies(std::int32_t element, cons
   for (int q = 0; q < points; ++q) {
     const auto here = strain_at<double>(data, q, strain);
     const double* const point = data + (Record::point + q * Record::point_size) * pack_size;
-    result.strain += point[0] * shell_energy(section_, point[pack_size],
-                                             {here.membrane[0], here.membrane[1], here.membrane[2], here.curvature[0], here.curvature[1], here.curvature[2]},
-                                             history.subspan(q * section_.history_size, section_.history_size));
+    const EnergyDensity density =
+        shell_energy(section_, point[pack_size],
+                     {here.membrane[0], here.membrane[1], here.membrane[2], here.curvature[0], here.curvature[1], here.curvature[2]},
+                     history.subspan(q * section_.history_size, section_.history_size));
+    result.strain += point[0] * density.recoverable;
+    result.plastic += point[0] * density.plastic;
+    result.viscous += point[0] * density.viscous;
   }
-  result.viscous = history[dissipation_row()];
+  result.viscous += history[dissipation_row()];
   return result;
 }
 

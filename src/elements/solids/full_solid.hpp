@@ -19,7 +19,7 @@ class FullSolid final : public ElementGroup {
  public:
   explicit FullSolid(const GroupInput& input);
 
-  int history_size() const override { return 2; }  // Jbar after the last increment, viscous dissipation
+  int history_size() const override { return law_row(Shape::points); }
   void initialize_history(std::span<double> history) const override {
     std::fill(history.begin(), history.end(), 0.0);
     history[0] = 1.0;
@@ -32,11 +32,11 @@ class FullSolid final : public ElementGroup {
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion,
                            std::span<const double> history) const override;
-  int point_components(std::string_view variable) const override { return solid_output_components(variable); }
+  int point_components(std::string_view variable) const override { return solid_output_components(material_, variable); }
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
-                    std::span<const double>, std::span<double> values) const override {
+                    std::span<const double> history, std::span<double> values) const override {
     const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), reference(element));
-    solid_output(variable, material_, k.modified[integration_point], {}, values);
+    solid_output(variable, material_, k.modified[integration_point], law_history(history, integration_point), values);
   }
   int integration_points() const override { return Shape::points; }
   std::size_t bytes_per_element() const override {
@@ -51,6 +51,16 @@ class FullSolid final : public ElementGroup {
   template <class T>
   using Tensors = std::array<Matrix3<T>, Shape::points>;
 
+  static constexpr int own_history = 2;  // Jbar after the last increment, viscous dissipation; then the law's, by point
+
+  int law_row(int point) const { return own_history + point * material_.law->history_size(); }
+  template <class T>
+  std::span<T> law_history(std::span<T> history, int point) const {
+    return history.subspan(law_row(point), material_.law->history_size());
+  }
+  /// Stresses and bounds of all points of a pack of elements.
+  void respond(std::int32_t element, double increment, PointBatch<PointKind::solid>& points,
+               std::span<double> history) const;
   Coefficients<Pack> gather_coefficients(std::int32_t element, const double* nodal) const;
   Pack add_pack(std::int32_t element, const ExplicitCycle& cycle, PointBatch<PointKind::solid>& points,
                 std::span<double> history) const;

@@ -68,9 +68,6 @@ FullSolid<Shape>::FullSolid(const GroupInput& input)
       material_(SolidMaterial::of_section(input.model, input.model.sections.at(input.section))),
       records_(static_cast<std::size_t>(padded_size_) * Record::size) {
   const Section& section = input.model.sections[input.section];
-  if (material_.law->history_size() != 0)
-    throw InputError(input.model.where(section.location) +
-                     ": error: *SOLID SECTION: C3D8 and C3D6 take elastic and hyperelastic materials only; use C3D8R");
   std::array<Vector3<double>, Shape::nodes> nodes;
   for (std::int32_t lane = 0; lane < padded_size_; ++lane) {
     reference_nodes(input.model, section, input.model.elements[input.table], rows_[lane], nodes);
@@ -88,7 +85,6 @@ StableIncrement FullSolid<Shape>::add_forces(Portion portion, const ExplicitCycl
   const std::int32_t last = portion == Portion::interface ? interface_padded_ : padded_size_;
   StableIncrement smallest;
   PointBatch<PointKind::solid> points;
-  points.count = Shape::points * pack_size;
   for (std::int32_t element = first; element < last; element += pack_size) {
     const Pack increment = add_pack(element, cycle, points, history);
     if (std::experimental::all_of(increment >= smallest.increment)) continue;
@@ -105,6 +101,23 @@ auto FullSolid<Shape>::gather_coefficients(std::int32_t element, const double* n
   return Shape::coefficients(x);
 }
 
+// A law without memory takes all points at once; with it, point after point, each with its own rows of history.
+template <class Shape>
+void FullSolid<Shape>::respond(std::int32_t element, double increment, PointBatch<PointKind::solid>& points,
+                               std::span<double> history) const {
+  points.increment = increment;
+  points.first = 0;
+  points.count = Shape::points * pack_size;
+  if (material_.law->history_size() == 0) return material_.law->stress(points);
+  points.count = pack_size;
+  points.history_stride = padded_size_;
+  for (int q = 0; q < Shape::points; ++q) {
+    points.first = q * pack_size;
+    points.history = history.data() + law_row(q) * static_cast<std::ptrdiff_t>(padded_size_) + element;
+    material_.law->stress(points);
+  }
+}
+
 template <class Shape>
 [[gnu::flatten]] Pack FullSolid<Shape>::add_pack(std::int32_t element, const ExplicitCycle& cycle,
                                                  PointBatch<PointKind::solid>& points,
@@ -114,7 +127,7 @@ template <class Shape>
   const auto k = full_solid_kinematics<Shape>(gather_coefficients(element, cycle.motion.position), reference);
   for (int q = 0; q < Shape::points; ++q)
     for (int i = 0; i < 9; ++i) store(k.modified[q].component[i], &points.strain[i][pack_size * q]);
-  material_.law->stress(points);
+  respond(element, cycle.increment, points, history);
   Tensors<Pack> stress;
   for (int q = 0; q < Shape::points; ++q)
     for (int i = 0; i < 9; ++i) stress[q].component[i] = load(&points.stress[i][pack_size * q]);

@@ -25,7 +25,8 @@ bool FullSolid<Shape>::linearize(std::int32_t element, const NodalMotion& motion
   Tensors<double> stress;
   std::array<std::array<double, 81>, Shape::points> tangent;
   for (int q = 0; q < Shape::points; ++q)
-    material_.law->tangent(k.modified[q].component, {}, stress[q].component, tangent[q]);
+    material_.law->tangent(k.modified[q].component, quasi_static, law_history(new_history, q), stress[q].component,
+                           stiffness.empty() ? std::span<double>() : tangent[q]);
   if (stiffness.empty()) {
     const auto forces = Shape::nodal(full_solid_conjugates<Shape>(k, stress, 0.0, record));
     for (int i = 0; i < dofs; ++i) force[i] = forces[i / 3][i % 3];
@@ -56,9 +57,14 @@ ElementEnergies FullSolid<Shape>::energies(std::int32_t element, const NodalMoti
   const LaneReference record = reference(element);
   const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), record);
   ElementEnergies energies;
-  for (int q = 0; q < Shape::points; ++q)
-    energies.strain += record[Record::point(q) + 9] * material_.law->energy_density(k.modified[q].component, {});
   energies.viscous = history[1];
+  for (int q = 0; q < Shape::points; ++q) {
+    const double volume = record[Record::point(q) + 9];
+    const EnergyDensity density = material_.law->energy_density(k.modified[q].component, law_history(history, q));
+    energies.strain += volume * density.recoverable;
+    energies.plastic += volume * density.plastic;
+    energies.viscous += volume * density.viscous;
+  }
   return energies;
 }
 

@@ -73,6 +73,7 @@ StableIncrement ReducedBrick::add_packs(std::int32_t first, std::int32_t last, c
   points.count =
       pack_size;  // one pack at a time stays in L1 together with its record: measured faster than batches of 64
   points.history_stride = padded_size_;
+  points.increment = cycle.increment;
   for (std::int32_t element = first; element < last; element += pack_size) {
     points.history = history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + element;
     const Pack increment = add_pack<enhanced, damped>(element, cycle, points, history);

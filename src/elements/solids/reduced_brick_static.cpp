@@ -48,7 +48,8 @@ bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, st
   new_history[0] = jacobian;
   Matrix3<double> stress;
   std::array<double, 81> tangent;
-  material_.law->tangent(f.component, new_history.subspan(own_history), stress.component, tangent);
+  material_.law->tangent(f.component, quasi_static, new_history.subspan(own_history), stress.component,
+                         stiffness.empty() ? std::span<double>() : tangent);
 
   if (stiffness.empty()) {
     const auto forces = static_forces(c, f, stress, record);
@@ -80,9 +81,11 @@ ElementEnergies ReducedBrick::energies(std::int32_t element, const NodalMotion& 
   const Matrix3<double> f = mean_deformation_gradient(c, record);
   const auto q = hourglass_vectors(c, f, record);
   ElementEnergies energies;
-  energies.strain =
-      record[brick_record::volume] * material_.law->energy_density(f.component, history.subspan(own_history));
-  energies.viscous = history[1];
+  const double volume = record[brick_record::volume];
+  const EnergyDensity density = material_.law->energy_density(f.component, history.subspan(own_history));
+  energies.strain = volume * density.recoverable;
+  energies.plastic = volume * density.plastic;
+  energies.viscous = history[1] + volume * density.viscous;
   if (enhanced_) {
     const auto strain = hourglass_strains(c, q);
     const auto stress = hourglass_stresses(strain, record);
@@ -94,7 +97,7 @@ ElementEnergies ReducedBrick::energies(std::int32_t element, const NodalMotion& 
 }
 
 int ReducedBrick::point_components(std::string_view variable) const {
-  return solid_output_components(variable);
+  return solid_output_components(material_, variable);
 }
 
 void ReducedBrick::point_output(std::string_view variable, std::int32_t element, int, const NodalMotion& motion,

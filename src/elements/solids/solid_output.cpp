@@ -28,24 +28,25 @@ Eigen::Matrix3d logarithmic_strain(const Eigen::Matrix3d& f) {
 Eigen::Matrix3d cauchy_stress(const SolidMaterial& material, const Matrix3<double>& f,
                               std::span<const double> law_history) {
   Matrix3<double> piola;
-  std::array<double, 81> tangent;
   std::vector<double> history(law_history.begin(), law_history.end());
-  material.law->tangent(f.component, history, piola.component, tangent);
+  material.law->tangent(f.component, 0.0, history, piola.component, {});
   return as_eigen(piola) * as_eigen(f).transpose() / as_eigen(f).determinant();
 }
 
 }  // namespace
 
-int solid_output_components(std::string_view variable) {
+int solid_output_components(const SolidMaterial& material, std::string_view variable) {
   if (variable == "S" || variable == "LE") return 6;
   if (variable == "MISES" || variable == "PRESS" || variable == "SENER") return 1;
-  return 0;
+  return history_scalar(*material.law, variable) >= 0 ? 1 : 0;
 }
 
 void solid_output(std::string_view variable, const SolidMaterial& material, const Matrix3<double>& deformation_gradient,
                   std::span<const double> law_history, std::span<double> values) {
   if (variable == "SENER") {
-    values[0] = material.law->energy_density(deformation_gradient.component, law_history);
+    values[0] = material.law->energy_density(deformation_gradient.component, law_history).recoverable;
+  } else if (const int row = history_scalar(*material.law, variable); row >= 0) {
+    values[0] = law_history[row];
   } else if (variable == "LE") {
     copy_symmetric(logarithmic_strain(as_eigen(deformation_gradient)), 2.0,
                    values);  // shear as 2 LE12, as Abaqus writes it

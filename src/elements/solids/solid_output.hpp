@@ -9,8 +9,8 @@
 
 namespace balocco {
 
-/// Components of S, LE (6), MISES, PRESS, SENER (1); 0 for anything else.
-int solid_output_components(std::string_view variable);
+/// Components of S, LE (6), MISES, PRESS, SENER and scalars of the law's history such as PEEQ (1); 0 for anything else.
+int solid_output_components(const SolidMaterial& material, std::string_view variable);
 
 /// S: Cauchy stress; LE: logarithmic strain, both in global directions; MISES; PRESS = -tr S / 3; SENER: recoverable
 /// energy per reference volume. `deformation_gradient` is that of the material directions.

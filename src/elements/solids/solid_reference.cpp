@@ -37,7 +37,7 @@ std::array<double, 36> initial_stiffness(const Law<PointKind::solid>& law) {
   std::array<double, 9> stress;
   std::array<double, 81> tangent;
   std::vector<double> history(law.history_size(), 0.0);
-  law.tangent(identity, history, stress, tangent);
+  law.tangent(identity, 0.0, history, stress, tangent);
   std::array<double, 36> stiffness;
   for (int a = 0; a < 6; ++a)
     for (int b = 0; b < 6; ++b)
@@ -51,15 +51,14 @@ std::array<double, 36> initial_stiffness(const Law<PointKind::solid>& law) {
 
 SolidMaterial SolidMaterial::of_section(const Model& model, const Section& section) {
   const Material& material = model.materials.at(section.material);
-  const MaterialLaw* law = find_material_law(material.law);
-  if (law == nullptr || law->solid == nullptr)
+  SolidMaterial result;
+  result.law = make_law<PointKind::solid>(material);
+  if (result.law == nullptr)
     throw InputError(fmt::format(
         "{}: error: *SOLID SECTION: material {} has no three-dimensional law{}; give *ELASTIC or *HYPERELASTIC "
         "data for solids",
         model.where(section.location), material.name,
-        law == nullptr ? std::string() : " (" + law->name + " has none)"));
-  SolidMaterial result;
-  result.law = law->solid(material.parameters);
+        material.law.empty() ? std::string() : " (" + material.law + " has none)"));
   result.density = material.density;
   result.damping_beta = material.damping_beta;
   result.stiffness = initial_stiffness(*result.law);

@@ -24,10 +24,10 @@ std::unique_ptr<Law<PointKind::line>> line_law(const Model& model, const Section
   if (section.material < 0) fail("it names no material; add MATERIAL=NAME");
   if (!(section.area > 0.0)) fail(fmt::format("the area of a truss is {}; it must be positive", section.area));
   const Material& material = model.materials[section.material];
-  const MaterialLaw* law = find_material_law(material.law);
-  if (law == nullptr || law->line == nullptr)
+  auto law = make_law<PointKind::line>(material);
+  if (law == nullptr)
     fail(fmt::format("material {} has no uniaxial law for trusses; give it *ELASTIC or *HYPERELASTIC", material.name));
-  return law->line(material.parameters);
+  return law;
 }
 
 double truss_length(const Model& model, ElementRef element) {
@@ -60,7 +60,7 @@ void TrussGroup::set_undeformed_moduli() {
   std::vector<double> history(static_cast<std::size_t>(law_->history_size()) * pack_size, 0.0);
   const std::array<double, 1> undeformed{};
   std::array<double, 1> stress, tangent;
-  law_->tangent(undeformed, std::span(history).first(law_->history_size()), stress, tangent);
+  law_->tangent(undeformed, 0.0, std::span(history).first(law_->history_size()), stress, tangent);
   initial_modulus_ = tangent[0];
   Batch batch;
   batch.count = pack_size;
@@ -135,6 +135,7 @@ StableIncrement TrussGroup::add_forces(Portion portion, const ExplicitCycle& cyc
     }
     batch.history = history.data() + first;
     batch.history_stride = padded_size_;
+    batch.increment = cycle.increment;
     law_->stress(batch);
     for (int slot = 0; slot < batch.count; slot += pack_size) {
       const Pulled pulled = pull(batch, first, slot, cycle, history);

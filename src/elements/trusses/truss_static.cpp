@@ -36,7 +36,7 @@ bool TrussGroup::linearize(std::int32_t element, const NodalMotion& motion, std:
   if (damped()) new_history[strain_row()] = strain.value;
   const std::array<double, 1> strain_value{strain.value};
   std::array<double, 1> stress, tangent;
-  law_->tangent(strain_value, new_history.first(law_->history_size()), stress, tangent);
+  law_->tangent(strain_value, quasi_static, new_history.first(law_->history_size()), stress, tangent);
   const Vector3<Scalar> pull = truss_force(axis, Scalar::chain(stress[0], tangent[0], strain), area_ / length);
   for (int c = 0; c < 3; ++c) {
     force[3 + c] = pull[c].value;
@@ -54,21 +54,28 @@ bool TrussGroup::linearize(std::int32_t element, const NodalMotion& motion, std:
 ElementEnergies TrussGroup::energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const {
   const std::array<double, 1> strain{strain_at(element, motion.position)};
   ElementEnergies result;
-  result.strain =
-      area_ * reference_length(element) * law_->energy_density(strain, history.first(law_->history_size()));
-  result.viscous = history[dissipation_row()];
+  const double volume = area_ * reference_length(element);
+  const EnergyDensity density = law_->energy_density(strain, history.first(law_->history_size()));
+  result.strain = volume * density.recoverable;
+  result.plastic = volume * density.plastic;
+  result.viscous = history[dissipation_row()] + volume * density.viscous;
   return result;
 }
 
 int TrussGroup::point_components(std::string_view variable) const {
   if (variable == "S" || variable == "LE") return 6;
-  return variable == "MISES" || variable == "SENER" ? 1 : 0;
+  return variable == "MISES" || variable == "SENER" || history_scalar(*law_, variable) >= 0 ? 1 : 0;
 }
 
 void TrussGroup::point_output(std::string_view variable, std::int32_t element, int, const NodalMotion& motion,
                               std::span<const double> history, std::span<double> values) const {
   const std::array<double, 1> strain{strain_at(element, motion.position)};
-  const double square = 1.0 + 2.0 * strain[0], area_ratio = law_->transverse_stretch(strain);
+  std::vector<double> law_history(history.begin(), history.begin() + law_->history_size());
+  const double square = 1.0 + 2.0 * strain[0], area_ratio = law_->transverse_stretch(strain, law_history);
+  if (const int row = history_scalar(*law_, variable); row >= 0) {
+    values[0] = law_history[row];
+    return;
+  }
   if (variable == "LE") {
     const double transverse = 0.5 * std::log(area_ratio);
     const double components[6] = {0.5 * std::log1p(2.0 * strain[0]), transverse, transverse, 0.0, 0.0, 0.0};
@@ -76,12 +83,11 @@ void TrussGroup::point_output(std::string_view variable, std::int32_t element, i
     return;
   }
   if (variable == "SENER") {
-    values[0] = law_->energy_density(strain, history.first(law_->history_size()));
+    values[0] = law_->energy_density(strain, law_history).recoverable;
     return;
   }
-  std::vector<double> law_history(history.begin(), history.begin() + law_->history_size());
-  std::array<double, 1> stress, tangent;
-  law_->tangent(strain, law_history, stress, tangent);
+  std::array<double, 1> stress;
+  law_->tangent(strain, 0.0, law_history, stress, {});
   const double cauchy = stress[0] * std::sqrt(square) / area_ratio;  // axial force S A l / L over the current area
   std::fill(values.begin(), values.end(), 0.0);
   values[0] = variable == "MISES" ? std::fabs(cauchy) : cauchy;

@@ -1,0 +1,237 @@
+// *PLASTIC: finite-strain J2 plasticity, F = Fe Fp with Hencky's elasticity in the intermediate configuration and the
+// exponential map (Eterovic & Bathe, Int. J. Numer. Meth. Eng. 30, 1990; Weber & Anand, Comput. Meth. Appl. Mech. Eng.
+// 79, 1990). The return is exact: along a fixed direction one large increment gives what many small ones give. Isotropic
+// hardening by FlowStress; kinematic by back stresses of Armstrong & Frederick (Chaboche, Int. J. Plasticity 2, 1986).
+#pragma once
+
+#include <array>
+
+#include "materials/flow_stress.hpp"
+#include "materials/material_law.hpp"
+#include "materials/stretch.hpp"
+#include "materials/tangent_bound.hpp"
+#include "math/symmetric_tensor.hpp"
+
+namespace balocco {
+
+struct BackStress {
+  double modulus = 0.0;  // C: slope per plastic strain
+  double recall = 0.0;   // gamma: saturates at C / gamma; 0: linear
+
+  /// Share of the old back stress that is left after plastic strain dp, and what grows along the flow.
+  template <class V>
+  V remaining(const V& dp) const {
+    return recall > 0.0 ? exponential(-recall * dp) : V(1.0);
+  }
+  template <class V>
+  V growth(const V& dp, const V& remaining) const {
+    return recall > 0.0 ? (modulus / recall) * (1.0 - remaining) : modulus * dp;
+  }
+};
+
+struct J2Plasticity {
+  static constexpr int most_back_stresses = 4;
+  double bulk, shear;
+  FlowStress flow;
+  std::vector<BackStress> back_stresses;
+
+  /// @throws InputError if the options of the material do not fit together
+  static J2Plasticity of(const Material& material);
+  /// Whether a material has *PLASTIC.
+  static bool wanted(const Material& material);
+
+  template <class T>
+  struct State {
+    Matrix3<T> plastic{};  // Fp^-1 - I
+    T equivalent_plastic_strain = T(0.0), dissipation = T(0.0);
+    std::array<SymmetricTensor<T>, most_back_stresses> back_stress{};
+  };
+  template <class S, class Visit>
+  void fields(S& state, Visit&& visit) const {
+    visit("FP", state.plastic.component);
+    visit("PEEQ", state.equivalent_plastic_strain);
+    visit("PLASTIC DISSIPATION", state.dissipation);
+    for (std::size_t i = 0; i < back_stresses.size(); ++i) visit("ALPHA", state.back_stress[i].component);
+  }
+
+  template <class T>
+  Matrix3<T> stress(const Matrix3<T>& f, State<T>& state, double increment) const {
+    const Elastic<T> elastic = elastic_strain(f, state.plastic);
+    const T volume = trace(elastic.strain);
+    SymmetricTensor<T> deviator = T(2.0 * shear) * elastic.strain.plus_identity((-1.0 / 3.0) * volume);
+    if (increment != 0.0 || !flow.depends_on_rate()) flow_back(deviator, state, increment);
+
+    // Second Piola-Kirchhoff stress of the intermediate configuration, Ce^-1 T; Fe and Fp are still those of the trial:
+    // flow along the stress does not turn the elastic rotation.
+    const SymmetricTensor<T> total = deviator.plus_identity(bulk * volume);
+    const SymmetricTensor<T> metric = inverse((T(2.0) * elastic.green).plus_identity(T(1.0)));
+    const SymmetricTensor<T> second = symmetric_part(full(metric) * full(total));
+    const Matrix3<T> left = elastic.gradient * full(second);
+    return left + left * elastic.trial_plastic_transposed;
+  }
+
+  /// With tau = P F^T, l = dF F^-1, x = largest difference of elastic principal strains:
+  ///   d2W <= lambda (tr l)^2 + 2 mu (x coth x) |sym l|^2 + 3 |tau| |l|^2,  x coth x <= 1 + x^2 / 3 <= 1 + |tau / mu|^2 / 6,
+  /// |l| <= |F^-1|_2 |dF|. Plastic flow only lowers it.
+  template <class T>
+  TangentBound<T> bound(const Matrix3<T>& f, const Matrix3<T>& piola) const {
+    const Invariants<T> c = invariants(f);
+    const T inverse_square = 1.0 / (c.jacobian * c.jacobian);
+    const T n2 = largest_eigenvalue_bound(c.second * inverse_square, c.first * inverse_square);
+    const T stress_square = double_contraction(piola, piola) * largest_eigenvalue_bound(c.first, c.second);
+    const T x = (1.0 / (6.0 * shear * shear)) * stress_square;
+    return {T(maximum(bulk - (2.0 / 3.0) * shear, 0.0)), n2 * (shear * (1.0 + x) + 1.5 * square_root(stress_square))};
+  }
+
+  EnergyDensity energy(const Matrix3<double>& f, const State<double>& state) const {
+    const auto strain = elastic_strain(f, state.plastic).strain;
+    const double volume = trace(strain);
+    const auto deviator = strain.plus_identity(-volume / 3.0);
+    return {0.5 * bulk * volume * volume + shear * double_contraction(deviator, deviator), state.dissipation, 0.0};
+  }
+
+ private:
+  template <class T>
+  struct Elastic {
+    Matrix3<T> gradient, trial_plastic_transposed;  // Fe, (Fp^-1 - I)^T
+    SymmetricTensor<T> green, strain;               // (Ce - I) / 2, ln(Ce) / 2
+  };
+  template <class T>
+  Elastic<T> elastic_strain(const Matrix3<T>& f, const Matrix3<T>& plastic) const {
+    Elastic<T> e;
+    e.gradient = f + f * plastic;
+    e.trial_plastic_transposed = transpose(plastic);
+    e.green = green_strain(e.gradient - Matrix3<T>::identity());
+    e.strain = logarithmic_strain(e.green);
+    return e;
+  }
+
+  /// What is left of the deviator after the back stresses have faded over dp, and its size.
+  template <class V>
+  struct Relative {
+    SymmetricTensor<V> tensor;
+    V mises, slope;  // slope of mises against dp
+  };
+  template <class T, class V>
+  Relative<T> relative(const SymmetricTensor<T>& deviator, const State<T>& state, const V& dp) const {
+    Relative<T> r{deviator, T(0.0), T(0.0)};
+    SymmetricTensor<T> fading;
+    for (std::size_t i = 0; i < back_stresses.size(); ++i) {
+      const V remaining = back_stresses[i].remaining(dp);
+      r.tensor = r.tensor - T(remaining) * state.back_stress[i];
+      fading = fading + T(back_stresses[i].recall * remaining) * state.back_stress[i];
+    }
+    r.mises = square_root(1.5 * double_contraction(r.tensor, r.tensor) + std::numeric_limits<double>::min());
+    r.slope = 1.5 * double_contraction(r.tensor, fading) / r.mises;
+    return r;
+  }
+
+  /// mises(dp) - 3 G dp - growth of the back stresses - flow stress, with its slope: zero at the plastic increment.
+  template <class V>
+  Sloped<V> residual(const SymmetricTensor<V>& deviator, const State<V>& state, const V& dp, double increment) const {
+    const Relative<V> r = relative(deviator, state, dp);
+    const Sloped<V> yield = flow(V(state.equivalent_plastic_strain + dp), dp, increment);
+    Sloped<V> result{r.mises - (3.0 * shear) * dp - yield.value, r.slope - 3.0 * shear - yield.slope};
+    for (const auto& back : back_stresses) {
+      const V remaining = back.remaining(dp);
+      result.value = result.value - back.growth(dp, remaining);
+      result.slope = result.slope - back.modulus * remaining;
+    }
+    return result;
+  }
+
+  template <class T>
+  void flow_back(SymmetricTensor<T>& deviator, State<T>& state, double increment) const;
+  /// Newton's method within a bracket; lanes that have arrived stay where they are, so that a lane equals the scalar.
+  template <class V>
+  V plastic_increment(const SymmetricTensor<V>& deviator, const State<V>& state, double increment,
+                      const V& trial_mises, const auto& yields) const;
+};
+
+namespace j2_detail {
+
+template <class T>
+auto values(const SymmetricTensor<T>& a) {
+  SymmetricTensor<std::decay_t<decltype(value_of(a.component[0]))>> r;
+  for (int i = 0; i < 6; ++i) r.component[i] = value_of(a.component[i]);
+  return r;
+}
+
+}  // namespace j2_detail
+
+template <class V>
+V J2Plasticity::plastic_increment(const SymmetricTensor<V>& deviator, const State<V>& state, double increment,
+                                  const V& trial_mises, const auto& yields) const {
+  const double exponent = increment < quasi_static ? flow.search_exponent() : 1.0;
+  const bool curved = exponent != 1.0;
+  V scale = V(1.0);
+  if (curved) {  // the overstress law and elasticity both bound the increment from above
+    const V still = flow.static_curve(state.equivalent_plastic_strain).value;
+    const V rate_bound = (increment * flow.rate_parameter) * power(maximum(trial_mises / still - 1.0, V(0.0)), exponent);
+    const V elastic_bound = (1.0 / (3.0 * shear)) * trial_mises;
+    scale = -maximum(-rate_bound, -elastic_bound);
+  }
+  V low = V(0.0), high = curved ? V(1.0) : (1.0 / (3.0 * shear)) * trial_mises, y = curved ? high : low;
+  const V tolerance = 1e-14 * trial_mises;
+  constexpr int most_iterations = 60;
+  for (int i = 0; i < most_iterations; ++i) {
+    const V dp = curved ? scale * power(y, exponent) : y;
+    const Sloped<V> r = residual(deviator, state, dp, increment);
+    const auto open = yields && maximum(r.value, -r.value) > tolerance;
+    if (!any(open)) break;
+    const V slope = curved ? r.slope * (exponent * dp / y) : r.slope;
+    low = select(r.value > 0.0, y, low);
+    high = select(r.value > 0.0, high, y);
+    const V newton = y - r.value / slope;
+    const V next = select(newton >= low && newton <= high, newton, 0.5 * (low + high));
+    y = select(open, next, y);
+  }
+  return curved ? scale * power(y, exponent) : y;
+}
+
+template <class T>
+void J2Plasticity::flow_back(SymmetricTensor<T>& deviator, State<T>& state, double increment) const {
+  using V = std::decay_t<decltype(value_of(state.dissipation))>;
+  const auto trial = relative(deviator, state, V(0.0));
+  State<V> old;
+  old.equivalent_plastic_strain = value_of(state.equivalent_plastic_strain);
+  for (std::size_t i = 0; i < back_stresses.size(); ++i) old.back_stress[i] = j2_detail::values(state.back_stress[i]);
+  const V trial_mises = value_of(trial.mises);
+  const auto yields = trial_mises > flow.static_curve(old.equivalent_plastic_strain).value;
+  if (!any(yields)) return;
+
+  const SymmetricTensor<V> fixed = j2_detail::values(deviator);
+  const V dp = select(yields, plastic_increment(fixed, old, increment, trial_mises, yields), V(0.0));
+  // One step of Newton's method with duals at the root gives dp its exact derivative; for plain scalars it adds zero.
+  const T mises = relative(deviator, state, dp).mises;
+  const V slope = residual(fixed, old, dp, increment).slope;
+  const T flowed = select(yields, T(dp) - (mises - T(value_of(mises))) / T(slope), T(0.0));
+  const auto r = relative(deviator, state, flowed);
+
+  // n = 3/2 relative / mises; everything that grows along the flow is parallel to it.
+  const SymmetricTensor<T> unit = (1.0 / r.mises) * r.tensor;
+  const V before = flow(old.equivalent_plastic_strain, dp, increment).value;
+  const V after = flow(V(old.equivalent_plastic_strain + dp), dp, increment).value;
+  T along = T(V(0.5 * (before + after)));
+  for (std::size_t i = 0; i < back_stresses.size(); ++i) {
+    const T remaining = back_stresses[i].remaining(flowed);
+    const T growth = back_stresses[i].growth(flowed, remaining);
+    const SymmetricTensor<T> next = remaining * state.back_stress[i] + growth * unit;
+    along = along + 0.75 * double_contraction(state.back_stress[i] + next, unit);
+    for (int k = 0; k < 6; ++k)
+      state.back_stress[i].component[k] = select(yields, next.component[k], state.back_stress[i].component[k]);
+  }
+  deviator = deviator - (3.0 * shear * flowed) * unit;
+  state.dissipation = state.dissipation + flowed * along;
+  state.equivalent_plastic_strain = state.equivalent_plastic_strain + flowed;
+
+  // Fp^-1 <- Fp^-1 exp(-dp n). Nothing takes derivatives of the new state.
+  const SymmetricTensor<V> exponent = (-1.5 * dp) * j2_detail::values(unit);
+  const SymmetricTensor<V> growth = exponential_less_identity(exponent);
+  SymmetricTensor<T> change;
+  for (int i = 0; i < 6; ++i) change.component[i] = T(growth.component[i]);
+  const Matrix3<T> step = full(change);
+  state.plastic = state.plastic + step + state.plastic * step;
+}
+
+}  // namespace balocco

@@ -1,0 +1,41 @@
+#include "materials/material_option.hpp"
+
+#include <algorithm>
+#include <functional>
+#include <map>
+
+#include "model/model.hpp"
+
+namespace balocco {
+
+namespace {
+
+std::map<std::string, OptionSpec, std::less<>>& table() {
+  static std::map<std::string, OptionSpec, std::less<>> options;
+  return options;
+}
+
+}  // namespace
+
+const OptionSpec* find_material_option(std::string_view name) {
+  const auto found = table().find(name);
+  return found == table().end() ? nullptr : &found->second;
+}
+
+std::vector<const OptionSpec*> material_options() {
+  std::vector<const OptionSpec*> options;
+  for (const auto& entry : table()) options.push_back(&entry.second);
+  return options;
+}
+
+const MaterialOption* find_option(const Material& material, std::string_view name) {
+  const auto found = std::ranges::find(material.options, name, &MaterialOption::name);
+  return found == material.options.end() ? nullptr : &*found;
+}
+
+RegisterOption::RegisterOption(OptionSpec option) {
+  const std::string name = option.name;
+  table().insert_or_assign(name, std::move(option));
+}
+
+}  // namespace balocco
