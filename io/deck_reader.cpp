@@ -75,7 +75,7 @@ FileLoader file_loader() {
 ReadResult read_deck(const std::string& path, const FileLoader& loader, const ReadOptions& options) {
   register_material_laws();
   Diagnostics diagnostics;
-  const Tokens tokens = tokenize(path, loader, diagnostics);
+  Tokens tokens = tokenize(path, loader, diagnostics);
   Builder builder(diagnostics);
   builder.model.name = std::filesystem::path(path).stem().string();
   builder.model.files = tokens.files;
@@ -83,7 +83,7 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
   if (tokens.blocks.empty() && diagnostics.number_of_errors() == 0) {
     diagnostics.error({0, 1}, "", "the deck is empty; it needs at least nodes, elements and a step");
   }
-  builder.mesh_incomplete = diagnostics.number_of_errors() > 0;
+  builder.text_incomplete = builder.nodes_incomplete = builder.elements_incomplete = diagnostics.number_of_errors() > 0;
   const auto tasks = schedule(builder, tokens.blocks, options);
   run_phase(builder, tasks, Phase::definitions);
   build_mesh(builder, tasks);
@@ -91,13 +91,16 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
     run_phase(builder, tasks, phase);
   }
   throw_if_wrong(diagnostics, tokens.files);
-  if (auto errors = check_model(builder.model); !errors.empty()) {
-    errors.resize(std::min(errors.size(), Diagnostics::greatest_number_of_errors));
-    throw InputError(std::move(errors));
+  auto found = check_model(builder.model);
+  if (!found.errors.empty()) {
+    found.errors.resize(std::min(found.errors.size(), Diagnostics::greatest_number_of_errors));
+    throw InputError(std::move(found.errors));
   }
   finish_output(builder);  // asks the elements, so the model must be sound
   throw_if_wrong(diagnostics, tokens.files);
-  return {std::move(builder.model), diagnostics.warnings(tokens.files)};
+  auto warnings = diagnostics.warnings(tokens.files);
+  warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+  return {std::move(builder.model), std::move(warnings)};
 }
 
 }  // namespace balocco

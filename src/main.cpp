@@ -48,9 +48,7 @@ void print_warnings(const std::vector<std::string>& warnings) {
 }
 
 ReadResult read_whole(const Command& command, const FileLoader& loader) {
-  auto result = read_deck(command.deck, loader, {.ignored_keywords = command.ignored_keywords});
-  if (auto errors = check_model(result.model); !errors.empty()) throw InputError(std::move(errors));
-  return result;
+  return read_deck(command.deck, loader, {.ignored_keywords = command.ignored_keywords});
 }
 
 ExitStatus run(const Command& command, const Communicator& communicator) {

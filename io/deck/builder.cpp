@@ -53,11 +53,21 @@ void Builder::warning(const Block& block, Location location, std::string text) {
 
 void Builder::poison(const Block& block) {
   const KeywordRule* rule = find_keyword(block.keyword);
-  if (rule == nullptr || rule->phase == Phase::nodes || rule->phase == Phase::elements) mesh_incomplete = true;
+  const bool anything = rule == nullptr || block.keyword == "PART" || block.keyword == "INSTANCE";
+  const bool of_sets = block.keyword == "NSET" || block.keyword == "ELSET";  // what they define is known by its name
+  const bool of_nodes = anything || (rule->phase == Phase::nodes && !of_sets);
+  nodes_incomplete = nodes_incomplete || of_nodes;
+  elements_incomplete = elements_incomplete || of_nodes || (rule->phase == Phase::elements && !of_sets);
   if (in_step) draft.faulty = true;
   for (const auto& parameter : block.parameters) {
     if (parameter.has_value) poisoned_.insert(squeezed(parameter.value));
   }
+}
+
+bool Builder::is_poisoned(std::string_view name) const {
+  const auto dot = name.rfind('.');
+  return poisoned_.contains(squeezed(name)) ||
+         (dot != std::string_view::npos && poisoned_.contains(squeezed(name.substr(0, dot))));
 }
 
 std::string Builder::squeezed(std::string_view name) {
@@ -77,7 +87,7 @@ std::optional<std::int32_t> Builder::find(const Names& names, std::string_view n
 std::optional<std::int32_t> Builder::require(const Names& names, std::string_view name, const Block& block,
                                              Location location) {
   if (const auto found = find(names, name)) return found;
-  if (!is_poisoned(name) && !(mesh_incomplete && (&names == &node_sets || &names == &element_sets))) {
+  if (!is_poisoned(name) && !text_incomplete) {
     std::vector<std::string> known;
     for (const auto& [key, row] : names.rows) known.push_back(key);
     const std::string guess = nearest(name, known);
@@ -119,7 +129,7 @@ std::optional<ElementRef> Builder::element(std::int64_t id) const {
 std::optional<std::int32_t> Builder::require_node(std::int64_t id, const Block& block, Location location) {
   const auto row = node(id);
   if (!row) {
-    if (!mesh_incomplete) {
+    if (!nodes_incomplete) {
       tell_undefined(fmt::format("node {}{}", scope->prefix, id), "define it under *NODE or correct the id", block,
                      location);
     }
@@ -158,7 +168,7 @@ bool Builder::nodes_of(std::string_view field, const Block& block, Location loca
   const auto set = require(node_sets, name, block, location);
   if (!set) return false;
   const auto& members = nodes_in(*set);
-  if (members.empty() && !mesh_incomplete) {
+  if (members.empty() && !nodes_incomplete && !elements_incomplete && !is_poisoned(name)) {
     error(block, location, fmt::format("node set {} is empty; give it nodes or do not use it", name));
     return false;
   }
@@ -173,7 +183,7 @@ bool Builder::elements_of(std::string_view field, const Block& block, Location l
     if (found) {
       elements.push_back(*found);
     } else {
-      if (!mesh_incomplete) {
+      if (!elements_incomplete) {
         tell_undefined(fmt::format("element {}{}", scope->prefix, *id), "define it under *ELEMENT or correct the id",
                        block, location);
       }
@@ -185,7 +195,7 @@ bool Builder::elements_of(std::string_view field, const Block& block, Location l
   const auto set = require(element_sets, name, block, location);
   if (!set) return false;
   const auto& members = elements_in(*set);
-  if (members.empty() && !mesh_incomplete) {
+  if (members.empty() && !elements_incomplete && !is_poisoned(name)) {
     error(block, location, fmt::format("element set {} is empty; give it elements or do not use it", name));
     return false;
   }

@@ -26,6 +26,8 @@ struct Names {
 /// Whose names and ids a block speaks of: the whole deck, or an instance, whose ids are shifted to be unique.
 struct Scope {
   std::string prefix;                                       // "" or "INSTANCE."
+  std::int32_t instance = -1;                               // row of Model::instances
+  std::int32_t node_set = -1, element_set = -1;             // *INSTANCE, NSET=, ELSET=: sets of all that it holds
   std::optional<std::int64_t> node_offset, element_offset;  // set when the first node or element is defined
   std::int64_t largest_node = 0, largest_element = 0;       // before the shift
   std::array<Point, 3> rotation{
@@ -78,7 +80,8 @@ class Builder {
   bool in_step = false;
   bool first_pass = false;       // nodes and elements phases: what refers to things defined further down is put off
   bool put_off = false;          // set by a handler that wants to be called again
-  bool mesh_incomplete = false;  // nodes, elements or sets were refused: what they leave undefined is not told again
+  // Something that defines nodes, elements or anything was refused: what may be undefined for that is not told.
+  bool nodes_incomplete = false, elements_incomplete = false, text_incomplete = false;
 
   void error(const Block& block, Location location, std::string text);
   void warning(const Block& block, Location location, std::string text);
@@ -111,7 +114,8 @@ class Builder {
   void normalize_sets();
 
   std::int64_t element_id(ElementRef element) const { return model.elements[element.table].id[element.row]; }
-  bool is_poisoned(std::string_view name) const { return poisoned_.contains(squeezed(name)); }
+  /// True if a refused block would have defined that name, or the instance in front of it.
+  bool is_poisoned(std::string_view name) const;
 
  private:
   static std::string squeezed(std::string_view name);

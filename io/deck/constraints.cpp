@@ -105,7 +105,7 @@ void read_rigid_body(Builder& builder, const Block& block) {
   const auto reference = reference_node(builder, block);
   if (!reference) return;
   const auto known = builder.body_of_reference.find(*reference);
-  const std::int64_t id = builder.model.nodes.id[*reference];
+  const std::string id = builder.model.node_name(*reference);
   if (builder.in_step) {
     if (known != builder.body_of_reference.end()) return change(builder, block, known->second);
     if (builder.is_poisoned(block.value("REF NODE"))) return;

@@ -36,7 +36,9 @@ void read_friction(Builder& builder, const Block& block) {
   if (block.lines.empty()) return builder.error(block, block.location, "the coefficient is missing; add a data line");
   Row row(builder, block, block.lines[0]);
   const double coefficient = row.real_or(0, 0.0, "friction coefficient");
-  row.at_most(1);
+  // One line holds at every slip rate, pressure and temperature, which may follow.
+  for (int field = 1; field < 4; ++field) row.real_or(field, 0.0, "slip rate, contact pressure or temperature");
+  row.at_most(4);
   if (row.ok() && coefficient < 0.0)
     row.error(fmt::format("coefficient {} must not be negative; correct it", coefficient));
   if (block.lines.size() > 1)
@@ -170,7 +172,20 @@ void read_contact_pair_in_model(Builder& builder, const Block& block) {
   read_contact_pair(builder, block);
 }
 
+/// How Balocco enforces contact does not hang on these: told, because another code would get other pressures.
+void tell_enforcement(Builder& builder, const Block& block) {
+  if (block.value("MECHANICAL CONSTRAINT") == "KINEMATIC") {
+    builder.warning(block, block.location,
+                    "MECHANICAL CONSTRAINT=KINEMATIC: explicit steps enforce contact by penalty; the penetration is small but "
+                    "not zero");
+  }
+  if (block.value("TYPE") == "SURFACE TO SURFACE") {
+    builder.warning(block, block.location, "TYPE=SURFACE TO SURFACE: the nodes of the slave are kept from the master");
+  }
+}
+
 void read_pair(Builder& builder, const Block& block) {
+  tell_enforcement(builder, block);
   builder.in_step ? read_contact_pair(builder, block) : read_contact_pair_in_model(builder, block);
 }
 
@@ -210,8 +225,9 @@ const RegisterKeyword pair{
     {"CONTACT PAIR",
      Phase::history,
      Place::anywhere,
-     {required(name("INTERACTION")), choice("TYPE", {"NODE TO SURFACE"}), choice("MECHANICAL CONSTRAINT", {"PENALTY"}),
-      choice("OP", {"ADD", "DELETE"}), name("CPSET")},
+     {required(name("INTERACTION")), choice("TYPE", {"NODE TO SURFACE", "SURFACE TO SURFACE"}),
+      choice("MECHANICAL CONSTRAINT", {"PENALTY", "KINEMATIC"}), choice("OP", {"ADD", "DELETE"}), name("CPSET"),
+      foreign("NO THICKNESS"), foreign("WEIGHT"), foreign("SMALL SLIDING")},
      read_pair}};
 const RegisterKeyword change{{"MODEL CHANGE",
                               Phase::history,

@@ -245,7 +245,8 @@ const RegisterKeyword part{{.keyword = "PART", .parameters = {required(name("NAM
 const RegisterKeyword end_part{{.keyword = "END PART"}};
 const RegisterKeyword assembly{{.keyword = "ASSEMBLY", .parameters = {name("NAME")}}};
 const RegisterKeyword end_assembly{{.keyword = "END ASSEMBLY"}};
-const RegisterKeyword instance{{.keyword = "INSTANCE", .parameters = {required(name("NAME")), name("PART")}}};
+const RegisterKeyword instance{{.keyword = "INSTANCE",
+                                .parameters = {required(name("NAME")), name("PART"), name("NSET"), name("ELSET")}}};
 const RegisterKeyword end_instance{{.keyword = "END INSTANCE"}};
 
 }  // namespace

@@ -31,7 +31,7 @@ bool distinct(Builder& builder, const Block& block, Location location, std::int6
       builder.error(block, location,
                     fmt::format("element {} has node {} twice; use an element type with fewer nodes or correct "
                                 "the connectivity",
-                                id, builder.model.nodes.id[nodes[i]]));
+                                id, builder.model.node_name(nodes[i])));
       return false;
     }
   }
@@ -58,10 +58,19 @@ std::optional<ElementRef> add_element(Builder& builder, const Block& block, Loca
   }
   builder.scope->largest_element = std::max(builder.scope->largest_element, id);
   elements.id.push_back(unique);
+  const Scope& scope = *builder.scope;
+  if (!builder.model.instances.empty()) elements.instance.push_back(scope.instance);
+  if (scope.instance >= 0) builder.model.instances[scope.instance].element_offset = *scope.element_offset;
+  if (scope.element_set >= 0) builder.add_to_element_set(scope.element_set, reference);
   elements.connectivity.insert(elements.connectivity.end(), nodes.begin(), nodes.end());
   elements.section.push_back(-1);
   elements.location.push_back(location);
   return reference;
+}
+
+std::string_view first_field(const Block& block) {
+  const std::string_view line = block.lines.front().text;
+  return trim(line.substr(0, line.find(',')));
 }
 
 const ElementType* type_of(Builder& builder, const Block& block) {
@@ -70,9 +79,13 @@ const ElementType* type_of(Builder& builder, const Block& block) {
   if (type == nullptr) {
     std::vector<std::string> known;
     for (const auto* candidate : element_types()) known.push_back(candidate->name);
+    const std::string set = block.has("ELSET") ? fmt::format(" of set {}", block.value("ELSET")) : "";
+    const std::string first = block.lines.empty() ? "" : fmt::format(" (element {}{})", first_field(block), set);
+    const bool plane = name.starts_with("CP") || name.starts_with("CAX");
     builder.error(block, block.location,
-                  fmt::format("element type {} is unknown or not supported{}; supported: {}", name,
-                              did_you_mean(name, known), join(known)));
+                  fmt::format("element type {}{} is unknown or not supported{}; supported: {}{}", name, first,
+                              did_you_mean(name, known), join(known),
+                              plane ? "; plane faces that a mesher wrote beside the solids are not needed: delete them" : ""));
   }
   return type;
 }

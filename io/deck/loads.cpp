@@ -145,12 +145,12 @@ void read_boundary_line(Builder& builder, const Block& block, Row& row, Boundary
           return row.error(fmt::format(
               "node {} has no rotation to prescribe; nodes of shells, beams and ROTARYI elements and reference nodes of rigid "
               "bodies have degrees of freedom 4 to 6",
-              builder.model.nodes.id[node]));
+              builder.model.node_name(node)));
         }
         if (!freedoms->named && !told_rotation) {
           builder.warning(block, row.location(),
                           fmt::format("node {} has no rotations: degrees of freedom 4 to 6 are left out",
-                                      builder.model.nodes.id[node]));
+                                      builder.model.node_name(node)));
           told_rotation = true;
         }
         continue;
@@ -216,7 +216,7 @@ void read_concentrated(Builder& builder, const Block& block) {
       if (dof > 3 && !rotations.has(node)) {
         row.error(fmt::format("node {} cannot take a moment; nodes of shells, beams and ROTARYI elements and reference nodes of rigid "
                               "bodies can",
-                              builder.model.nodes.id[node]));
+                              builder.model.node_name(node)));
         break;
       }
       const auto [place, added] = index.emplace(std::int64_t{node} * 6 + dof - 1, loads.size());
@@ -294,7 +294,7 @@ std::optional<std::int32_t> pressed_surface(Builder& builder, const Block& block
     const int face = pressed_face(type, label);
     if (face < 0) {
       row.error(fmt::format("element {} of type {} cannot take the load {}; solids take P1 to P6 by face, membranes P",
-                            builder.element_id(element), type.name, label));
+                            builder.model.element_name(element), type.name, label));
       return std::nullopt;
     }
     surface.faces.push_back({element, face});

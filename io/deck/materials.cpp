@@ -252,7 +252,7 @@ void read_option(Builder& builder, const Block& block) {
   present.push_back(std::move(result));
 }
 
-const RegisterKeyword material{{"MATERIAL", Phase::definitions, Place::model, {required(name("NAME"))}, read_material}};
+const RegisterKeyword material{{"MATERIAL", Phase::definitions, Place::model, {required(name("NAME")), text("DESCRIPTION")}, read_material}};
 const RegisterKeyword density{{"DENSITY", Phase::definitions, Place::model, {}, read_density, "MATERIAL"}};
 const RegisterKeyword damping{
     {"DAMPING", Phase::definitions, Place::model, {real("ALPHA"), real("BETA")}, read_damping, "MATERIAL"}};

@@ -225,6 +225,9 @@ std::optional<std::int32_t> add_node(Builder& builder, const Block& block, Locat
     return std::nullopt;
   }
   nodes.id.push_back(id + *scope.node_offset);
+  if (!builder.model.instances.empty()) nodes.instance.push_back(scope.instance);
+  if (scope.instance >= 0) builder.model.instances[scope.instance].node_offset = *scope.node_offset;
+  if (scope.node_set >= 0) builder.add_to_node_set(scope.node_set, place->second);
   nodes.coordinates.push_back(point);
   nodes.location.push_back(location);
   return place->second;

@@ -19,7 +19,8 @@ const RegisterKeyword file_format{old_request("FILE FORMAT")}, node_print{old_re
     el_print{old_request("EL PRINT")}, node_file{old_request("NODE FILE")}, el_file{old_request("EL FILE")},
     monitor{old_request("MONITOR")}, contact_print{old_request("CONTACT PRINT")},
     contact_file{old_request("CONTACT FILE")}, energy_print{old_request("ENERGY PRINT")},
-    energy_file{old_request("ENERGY FILE")}, section_print{old_request("SECTION PRINT")};
+    energy_file{old_request("ENERGY FILE")}, section_print{old_request("SECTION PRINT")},
+    file_output{old_request("FILE OUTPUT")}, print{old_request("PRINT")}, diagnostics{old_request("DIAGNOSTICS")};
 
 }  // namespace
 

@@ -57,7 +57,8 @@ void begin_field(Builder& builder, const Block& block) {
   Step& step = current(builder);
   if (!builder.draft.field_replaced && block.value("OP", "NEW") == "NEW") step.field_outputs.clear();
   builder.draft.field_replaced = true;
-  FieldOutput output = block.has("VARIABLE") ? preselected_field() : FieldOutput{};
+  // Without FIELD it only says when frames are written, as CalculiX has it.
+  FieldOutput output = block.has("VARIABLE") || !block.has("FIELD") ? preselected_field() : FieldOutput{};
   if (block.value("VARIABLE") == "ALL") {
     output.node_variables = node_vectors;
     output.element_variables = all_element;
@@ -78,10 +79,11 @@ void begin_history(Builder& builder, const Block& block) {
   Step& step = current(builder);
   if (!builder.draft.history_replaced && block.value("OP", "NEW") == "NEW") step.history_outputs.clear();
   builder.draft.history_replaced = true;
-  for (const char* parameter : {"NUMBER INTERVAL", "TIME POINTS", "PRECISION"}) {
+  for (const char* parameter : {"TIME POINTS", "PRECISION"}) {
     if (block.has(parameter)) {
       return builder.error(block, block.location,
-                           fmt::format("{} is not supported for history; use FREQUENCY or TIME INTERVAL", parameter));
+                           fmt::format("{} is not supported for history; use FREQUENCY, NUMBER INTERVAL or TIME INTERVAL",
+                                       parameter));
     }
   }
   FieldOutput times;
@@ -93,6 +95,7 @@ void begin_history(Builder& builder, const Block& block) {
   HistoryOutput output;
   output.frequency = times.frequency;
   output.time_interval = times.time_interval;
+  if (times.number_interval) output.time_interval = step.duration() / *times.number_interval;
   if (block.has("VARIABLE")) {
     output.energies = energies;
     for (std::size_t pair = 0; block.value("VARIABLE") == "ALL" && pair < builder.model.contact_pairs.size(); ++pair) {
@@ -105,9 +108,9 @@ void begin_history(Builder& builder, const Block& block) {
 
 void read_output(Builder& builder, const Block& block) {
   builder.draft.output = StepDraft::Output::none;
-  if (block.has("FIELD") == block.has("HISTORY"))
+  if (block.has("FIELD") && block.has("HISTORY"))
     return builder.error(block, block.location, "give either FIELD or HISTORY");
-  block.has("FIELD") ? begin_field(builder, block) : begin_history(builder, block);
+  block.has("HISTORY") ? begin_history(builder, block) : begin_field(builder, block);
 }
 
 /// A group of one element of each table and section, to ask which variables exist.
@@ -151,7 +154,7 @@ const RegisterKeyword output{
      Place::step,
      {flag("FIELD"), flag("HISTORY"), integer("FREQUENCY"), integer("NUMBER INTERVAL"), real("TIME INTERVAL"),
       name("TIME POINTS"), choice("VARIABLE", {"PRESELECT", "ALL"}), choice("OP", {"NEW", "ADD"}),
-      choice("PRECISION", {"SINGLE", "DOUBLE"}), choice("TIME MARKS", {"NO"})},
+      choice("PRECISION", {"SINGLE", "DOUBLE"}), choice("TIME MARKS", {"NO"}), text("NAME"), foreign("SENSOR")},
      read_output}};
 
 }  // namespace

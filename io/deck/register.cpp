@@ -19,8 +19,20 @@ std::map<std::string, KeywordRule, std::less<>>& table() {
   return rules;
 }
 
-/// What is wrong with a value, or "".
-std::string trouble_with_value(const ParameterRule& rule, const Parameter& parameter) {
+/// The one of `words` that `word` is or abbreviates with three letters or more, or "".
+std::string written_out(std::string_view word, const std::vector<std::string>& words) {
+  const std::string squeezed = squeeze(word);
+  const auto begins = [&](const std::string& candidate) { return squeeze(candidate).starts_with(squeezed); };
+  const auto same = [&](const std::string& candidate) { return squeeze(candidate) == squeezed; };
+  const auto whole = std::find_if(words.begin(), words.end(), same);
+  if (whole != words.end()) return *whole;
+  if (squeezed.size() < 3 || std::count_if(words.begin(), words.end(), begins) != 1) return "";
+  return *std::find_if(words.begin(), words.end(), begins);
+}
+
+/// What is wrong with a value, or "". A choice is written out.
+std::string trouble_with_value(const ParameterRule& rule, Parameter& parameter) {
+  if (rule.kind == Kind::foreign) return "";
   const bool optional = rule.kind == Kind::optional_real || rule.kind == Kind::optional_choice;
   if (rule.kind == Kind::flag) {
     return parameter.has_value ? fmt::format("{} takes no value; leave out '={}'", rule.name, parameter.raw) : "";
@@ -36,13 +48,19 @@ std::string trouble_with_value(const ParameterRule& rule, const Parameter& param
     return fmt::format("{}={} is not a whole number; write an integer", rule.name, parameter.raw);
   }
   if (rule.kind == Kind::choice || rule.kind == Kind::optional_choice) {
-    const auto same = [&](const std::string& value) { return squeeze(value) == squeeze(parameter.value); };
-    if (std::none_of(rule.choices.begin(), rule.choices.end(), same)) {
+    const std::string choice = written_out(parameter.value, rule.choices);
+    if (choice.empty()) {
       return fmt::format("{}={} is not supported{}{}", rule.name, parameter.raw,
                          did_you_mean(parameter.value, rule.choices), "; allowed: " + join(rule.choices));
     }
+    parameter.value = choice;
   }
   return "";
+}
+
+/// A line that a comma at the end of the one above made part of the keyword, though it begins with no parameter.
+bool looks_like_data(const Parameter& parameter, const Block& block) {
+  return parameter.line != block.location.line && !parameter.has_value;
 }
 
 }  // namespace
@@ -71,6 +89,9 @@ ParameterRule optional_real(std::string name) {
 ParameterRule optional_choice(std::string name, std::vector<std::string> choices) {
   return {Kind::optional_choice, std::move(name), std::move(choices), false};
 }
+ParameterRule foreign(std::string name) {
+  return {Kind::foreign, std::move(name), {}, false};
+}
 ParameterRule required(ParameterRule rule) {
   rule.required = true;
   return rule;
@@ -93,7 +114,7 @@ std::vector<std::string> keywords() {
   return result;
 }
 
-bool check_parameters(const KeywordRule& rule, const Block& block, Diagnostics& diagnostics) {
+bool check_parameters(const KeywordRule& rule, Block& block, Diagnostics& diagnostics) {
   if (rule.any_parameter) return true;
   bool good = true;
   const auto tell = [&](std::string text) {
@@ -102,15 +123,27 @@ bool check_parameters(const KeywordRule& rule, const Block& block, Diagnostics& 
   };
   std::vector<std::string> known;
   for (const auto& allowed : rule.parameters) known.push_back(allowed.name);
-  for (const auto& parameter : block.parameters) {
+  for (auto& parameter : block.parameters) {
+    const std::string whole = written_out(parameter.written, known);
     const auto allowed = std::find_if(rule.parameters.begin(), rule.parameters.end(),
-                                      [&](const ParameterRule& r) { return squeeze(r.name) == parameter.name; });
+                                      [&](const ParameterRule& r) { return r.name == whole; });
+    if (allowed != rule.parameters.end()) parameter.name = squeeze(whole);
+    if (allowed == rule.parameters.end() && looks_like_data(parameter, block)) {
+      diagnostics.error({block.location.file, parameter.line}, rule.keyword,
+                        fmt::format("a comma ends the line above, which makes this line, beginning with '{}', part of the "
+                                    "keyword; remove the comma if it is a data line",
+                                    parameter.written));
+      return false;
+    }
     if (allowed == rule.parameters.end()) {
       tell(fmt::format("parameter {} is unknown or not supported{}; {}", upper(parameter.written),
                        did_you_mean(parameter.written, known),
                        known.empty() ? "this keyword takes none" : "supported: " + join(known)));
     } else if (const auto trouble = trouble_with_value(*allowed, parameter); !trouble.empty()) {
       tell(trouble);
+    } else if (allowed->kind == Kind::foreign) {
+      diagnostics.warning(block.location, rule.keyword,
+                          fmt::format("parameter {} has no counterpart here and is left out", allowed->name));
     } else if (block.find(parameter.name) != &parameter) {
       tell(fmt::format("parameter {} is given twice; keep one", allowed->name));
     }

@@ -19,8 +19,9 @@ enum class Phase { definitions, nodes, elements, surfaces, sections, constraints
 enum class Place { model, step, anywhere };
 
 struct ParameterRule {
-  /// Optional kinds may stand with or without a value.
-  enum class Kind { flag, text, name, real, integer, choice, optional_real, optional_choice } kind = Kind::flag;
+  /// Optional kinds may stand with or without a value; a foreign one says how another code should compute or look for
+  /// something that has no counterpart here, so it is left out with a note.
+  enum class Kind { flag, text, name, real, integer, choice, optional_real, optional_choice, foreign } kind = Kind::flag;
   std::string name;
   std::vector<std::string> choices;
   bool required = false;
@@ -34,6 +35,7 @@ ParameterRule integer(std::string name);
 ParameterRule choice(std::string name, std::vector<std::string> choices);
 ParameterRule optional_real(std::string name);
 ParameterRule optional_choice(std::string name, std::vector<std::string> choices);
+ParameterRule foreign(std::string name);
 ParameterRule required(ParameterRule rule);
 
 struct KeywordRule {
@@ -55,7 +57,8 @@ struct RegisterKeyword {
 const KeywordRule* find_keyword(std::string_view squeezed);
 std::vector<std::string> keywords();
 
-/// Checks the parameters of a block against its rule. @return false if something was wrong.
-bool check_parameters(const KeywordRule& rule, const Block& block, Diagnostics& diagnostics);
+/// Checks the parameters of a block against its rule, and writes names and choices out where the deck abbreviates them
+/// (Abaqus: as many letters as make them unique). @return false if something was wrong.
+bool check_parameters(const KeywordRule& rule, Block& block, Diagnostics& diagnostics);
 
 }  // namespace balocco::deck

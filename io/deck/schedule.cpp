@@ -21,28 +21,28 @@ class Scheduler {
     }
   }
 
-  std::vector<Task> run(const std::vector<Block>& blocks) {
-    for (const auto& block : blocks) take(block);
+  std::vector<Task> run(std::vector<Block>& blocks) {
+    for (auto& block : blocks) take(block);
     finish();
     return std::move(tasks_);
   }
 
  private:
-  void take(const Block& block);
-  void take_structure(const Block& block);
+  void take(Block& block);
+  void take_structure(Block& block);
   void begin_instance(const Block& block);
   void begin_or_end_step(const Block& block);
-  bool accepted(const Block& block, const KeywordRule& rule);
+  bool accepted(Block& block, const KeywordRule& rule);
   bool is_structure(const Block& block) const;
-  void add(const Block& block);
-  void add_checked(const Block& block);
+  void add(Block& block);
+  void add_checked(Block& block);
   void unknown(const Block& block);
   void finish();
 
   Builder& builder_;
   std::vector<std::string> ignored_;
   std::vector<Task> tasks_;
-  std::map<std::string, std::vector<const Block*>> parts_;
+  std::map<std::string, std::vector<Block*>> parts_;
   const Block* part_ = nullptr;  // *PART, *ASSEMBLY, *INSTANCE, *STEP that is open
   const Block* assembly_ = nullptr;
   const Block* instance_ = nullptr;
@@ -58,7 +58,7 @@ bool Scheduler::is_structure(const Block& block) const {
   return std::find(words.begin(), words.end(), block.keyword) != words.end();
 }
 
-void Scheduler::take(const Block& block) {
+void Scheduler::take(Block& block) {
   if (is_structure(block)) {
     take_structure(block);
   } else if (part_ != nullptr) {
@@ -68,13 +68,13 @@ void Scheduler::take(const Block& block) {
   }
 }
 
-void Scheduler::add(const Block& block) {
+void Scheduler::add(Block& block) {
   const std::size_t errors = builder_.diagnostics.number_of_errors();
   add_checked(block);
   if (builder_.diagnostics.number_of_errors() > errors && step_ != nullptr) builder_.refused_steps.insert(step_);
 }
 
-void Scheduler::take_structure(const Block& block) {
+void Scheduler::take_structure(Block& block) {
   const KeywordRule& rule = *find_keyword(block.keyword);
   if (!check_parameters(rule, block, builder_.diagnostics)) builder_.poison(block);
   const auto open = [&](const Block*& mark) {
@@ -90,7 +90,10 @@ void Scheduler::take_structure(const Block& block) {
       builder_.error(block, block.location, "there is nothing to end; remove this line or add its beginning");
     mark = nullptr;
   };
-  if (block.keyword == "PART") open(part_);
+  if (block.keyword == "PART") {
+    open(part_);
+    parts_[block.value("NAME")];  // also a part without anything in it, as Abaqus/CAE writes analytical ones
+  }
   if (block.keyword == "ENDPART") close(part_);
   if (block.keyword == "ASSEMBLY") open(assembly_);
   if (block.keyword == "ENDASSEMBLY") close(assembly_);
@@ -108,6 +111,10 @@ void Scheduler::begin_instance(const Block& block) {
   builder_.scopes.emplace_back();
   scope_ = &builder_.scopes.back();
   scope_->prefix = block.value("NAME") + ".";
+  scope_->instance = static_cast<std::int32_t>(builder_.model.instances.size());
+  builder_.model.instances.push_back({block.value("NAME"), block.value("PART")});
+  if (block.has("NSET")) scope_->node_set = builder_.node_set_row(block.value("NSET"));
+  if (block.has("ELSET")) scope_->element_set = builder_.element_set_row(block.value("ELSET"));
   if (!block.lines.empty()) {
     Row row(builder_, block, block.lines[0]);
     for (int i = 0; i < 3; ++i) scope_->translation[i] = row.real_or(i, 0.0, "translation");
@@ -128,7 +135,7 @@ void Scheduler::begin_instance(const Block& block) {
     }
     return;
   }
-  for (const Block* inside : part->second) add(*inside);
+  for (Block* inside : part->second) add(*inside);
 }
 
 void Scheduler::unknown(const Block& block) {
@@ -138,7 +145,7 @@ void Scheduler::unknown(const Block& block) {
   builder_.error(block, block.location, "this keyword is unknown or not supported; " + cure);
 }
 
-void Scheduler::add_checked(const Block& block) {
+void Scheduler::add_checked(Block& block) {
   if (std::find(ignored_.begin(), ignored_.end(), block.keyword) != ignored_.end()) {
     builder_.warning(block, block.location, "ignored as requested, with its data lines");
     if (step_ != nullptr) builder_.refused_steps.insert(step_);
@@ -170,7 +177,7 @@ void Scheduler::add_checked(const Block& block) {
     tasks_.push_back({&block, rule, scope_, phase, in_step || block.keyword == "ENDSTEP"});
 }
 
-bool Scheduler::accepted(const Block& block, const KeywordRule& rule) {
+bool Scheduler::accepted(Block& block, const KeywordRule& rule) {
   if (!check_parameters(rule, block, builder_.diagnostics)) {
     builder_.poison(block);
     if (rule.parent.empty()) parent_ = block.keyword;
@@ -220,7 +227,7 @@ void Scheduler::finish() {
 
 }  // namespace
 
-std::vector<Task> schedule(Builder& builder, const std::vector<Block>& blocks, const ReadOptions& options) {
+std::vector<Task> schedule(Builder& builder, std::vector<Block>& blocks, const ReadOptions& options) {
   return Scheduler(builder, options).run(blocks);
 }
 

@@ -17,6 +17,6 @@ struct Task {
   bool in_step = false;
 };
 
-std::vector<Task> schedule(Builder& builder, const std::vector<Block>& blocks, const ReadOptions& options);
+std::vector<Task> schedule(Builder& builder, std::vector<Block>& blocks, const ReadOptions& options);
 
 }  // namespace balocco::deck

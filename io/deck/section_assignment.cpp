@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "elements/element_type.hpp"
 
 namespace balocco::deck {
@@ -28,6 +30,39 @@ const char* describe(Section::Kind kind) {
   return "";
 }
 
+const char* describe(Shape shape) {
+  switch (shape) {
+    case Shape::point:
+      return "a point";
+    case Shape::line:
+      return "a line";
+    case Shape::triangle:
+    case Shape::quadrilateral:
+      return "a surface";
+    case Shape::wedge:
+    case Shape::hexahedron:
+      return "a solid";
+  }
+  return "";
+}
+
+/// The element of the set that cannot have a section of this kind, what it is beside the others, and the way out.
+std::string misfit(const Model& model, const Block& block, ElementRef element, const std::vector<ElementRef>& all,
+                   Section::Kind kind) {
+  const ElementTable& table = model.elements[element.table];
+  const ElementType& type = *table.type;
+  const std::string what = fmt::format("element {} ({}) of type {} is {} and cannot have this section",
+                                       model.element_name(element), model.where(table.location[element.row]), type.name,
+                                       describe(type.shape));
+  const auto fits =
+      std::ranges::find_if(all, [&](ElementRef other) { return model.elements[other.table].type->section == kind; });
+  if (fits == all.end()) return fmt::format("{}; it needs {}", what, describe(type.section));
+  return fmt::format("{}, while element {} is of type {}; take the {} elements of type {} out of set {}: they need {}", what,
+                     model.element_name(*fits), model.elements[fits->table].type->name,
+                     std::ranges::count(all, element.table, &ElementRef::table), type.name, block.value("ELSET"),
+                     describe(type.section));
+}
+
 }  // namespace
 
 void assign_section(Builder& builder, const Block& block, Section section, const std::vector<ElementRef>& elements) {
@@ -36,15 +71,13 @@ void assign_section(Builder& builder, const Block& block, Section section, const
     ElementTable& table = builder.model.elements[element.table];
     std::int32_t& owner = table.section[element.row];
     if (table.type->section != section.kind) {
-      return builder.error(block, block.location,
-                           fmt::format("element {} of type {} cannot have this section; it needs {}",
-                                       table.id[element.row], table.type->name, describe(table.type->section)));
+      return builder.error(block, block.location, misfit(builder.model, block, element, elements, section.kind));
     }
     if (owner >= 0) {
       return builder.error(
           block, block.location,
-          fmt::format("element {} already has the section of {}; take it out of one of the sets", table.id[element.row],
-                      builder.model.where(builder.model.sections[owner].location)));
+          fmt::format("element {} already has the section of {}; take it out of one of the sets",
+                      builder.model.element_name(element), builder.model.where(builder.model.sections[owner].location)));
     }
     owner = row;
   }

@@ -1,6 +1,7 @@
 // *SOLID SECTION *MEMBRANE SECTION *SECTION CONTROLS *MASS *ROTARY INERTIA.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "deck/builder.hpp"
@@ -16,8 +17,13 @@ void read_solid_section(Builder& builder, const Block& block) {
   std::vector<ElementRef> elements;
   auto section = begin_section(builder, block, elements);
   if (!section || !need_material(builder, block)) return;
+  const auto is_solid = [&](ElementRef element) {
+    return builder.model.elements[element.table].type->section == Section::Kind::solid;
+  };
+  // Bars only if there is no solid: of both in one set it is the lines that a mesher left there.
   const auto kind = builder.model.elements[elements[0].table].type->section;
-  section->kind = kind == Section::Kind::truss ? kind : Section::Kind::solid;
+  const bool bars = kind == Section::Kind::truss && std::ranges::none_of(elements, is_solid);
+  section->kind = bars ? Section::Kind::truss : Section::Kind::solid;
   if (!block.lines.empty()) {
     Row row(builder, block, block.lines[0]);
     const double attribute = row.real_or(0, 1.0, "cross-section area");

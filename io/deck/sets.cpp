@@ -74,7 +74,7 @@ void collect_generated(Builder& builder, const Block& block, bool of_nodes, std:
     if (nodes.size() + elements.size() != before) continue;
     if (builder.first_pass) {
       builder.put_off = true;
-    } else if (!builder.mesh_incomplete) {
+    } else if (!(of_nodes ? builder.nodes_incomplete : builder.elements_incomplete)) {
       builder.error(block, line.location, "none of these ids exists; correct the range");
     }
   }

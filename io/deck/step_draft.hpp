@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <optional>
 #include <set>
+#include <string>
 #include <unordered_map>
 #include <utility>
 
@@ -21,6 +22,7 @@ struct StepDraft {
   ImplicitControls controls;  // go on from step to step, like NLGEOM
   std::optional<std::array<double, 2>> bulk_viscosity;  // linear, quadratic
   Location bulk_viscosity_location;
+  std::string amplitude;  // *STEP, AMPLITUDE=
   bool faulty = false;  // a block of it was refused: what that leaves missing is not told
   bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false;  // OP=NEW seen
   std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary

@@ -75,6 +75,7 @@ void begin_step(Builder& builder, const Block& block) {
   auto& draft = builder.draft;
   const bool nonlinear_before = draft.nonlinear_geometry;
   draft = {.location = block.location, .nonlinear_geometry = nonlinear_before, .controls = draft.controls};
+  draft.amplitude = block.value("AMPLITUDE");
   builder.draft.faulty = builder.refused_steps.contains(&block);
   Step step;
   inherit(builder, step);
@@ -105,6 +106,11 @@ void end_step(Builder& builder, const Block& block) {
     builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC or *DYNAMIC, EXPLICIT");
   }
   Step& step = current(builder);
+  if (builder.draft.has_procedure && builder.draft.amplitude == (step.ramps_loads() ? "STEP" : "RAMP")) {
+    builder.error(block, builder.draft.location,
+                  fmt::format("AMPLITUDE={}: {}; leave it out and give the loads an *AMPLITUDE", builder.draft.amplitude,
+                              step.ramps_loads() ? "loads of a static step grow linearly over it" : "loads of an explicit step act at once"));
+  }
   if (auto* procedure = std::get_if<StaticProcedure>(&step.procedure)) procedure->controls = builder.draft.controls;
   if (!builder.draft.bulk_viscosity) return;
   if (auto* procedure = std::get_if<ExplicitProcedure>(&step.procedure)) {
@@ -261,16 +267,22 @@ const RegisterKeyword step{
     {"STEP",
      Phase::history,
      Place::model,
-     {name("NAME"), optional_choice("NLGEOM", {"YES", "NO"}), integer("INC"), choice("UNSYMM", {"YES"})},
+     {name("NAME"), optional_choice("NLGEOM", {"YES", "NO"}), integer("INC"), choice("UNSYMM", {"YES", "NO"}),
+      foreign("EXTRAPOLATION"), foreign("SOLVER"), foreign("CONVERT SDI"), choice("AMPLITUDE", {"RAMP", "STEP"})},
      begin_step}};
 const RegisterKeyword end{{"END STEP", Phase::history, Place::step, {}, end_step}};
 const RegisterKeyword static_analysis{
-    {"STATIC", Phase::history, Place::step, {flag("DIRECT"), optional_real("STABILIZE")}, read_static}};
+    {"STATIC",
+     Phase::history,
+     Place::step,
+     {flag("DIRECT"), optional_real("STABILIZE"), foreign("ALLSDTOL"), choice("CONTINUE", {"NO"}), foreign("SOLVER")},
+     read_static}};
 const RegisterKeyword dynamic{{"DYNAMIC",
                                Phase::history,
                                Place::step,
                                {required(flag("EXPLICIT")), flag("DIRECT USER CONTROL"), flag("DIRECT"),
-                                flag("ELEMENT BY ELEMENT"), real("SCALE FACTOR"), real("ENERGY ERROR")},
+                                foreign("ELEMENT BY ELEMENT"), foreign("IMPROVED DT METHOD"), foreign("GLOBAL"),
+                                foreign("SOLVER"), real("SCALE FACTOR"), real("ENERGY ERROR")},
                                read_dynamic}};
 const RegisterKeyword bulk{{"BULK VISCOSITY", Phase::history, Place::step, {}, read_bulk_viscosity}};
 const RegisterKeyword controls{{"CONTROLS",

@@ -77,7 +77,7 @@ void read_element_faces(Builder& builder, const Block& block, Surface& surface) 
       const ElementType& type = *builder.model.elements[element.table].type;
       const int face = face_of_label(type, row.name(1));
       if (face < 0) {
-        row.error(fmt::format("element {} of type {} has no face {}; {}", builder.element_id(element), type.name,
+        row.error(fmt::format("element {} of type {} has no face {}; {}", builder.model.element_name(element), type.name,
                               row.name(1),
                               is_solid(type)       ? fmt::format("it has S1 to S{}", type.faces.size())
                               : type.faces.empty() ? "it has no faces"
@@ -87,7 +87,7 @@ void read_element_faces(Builder& builder, const Block& block, Surface& surface) 
       surface.faces.push_back({element, face});
     }
   }
-  if (surface.faces.empty() && !builder.mesh_incomplete && !builder.is_poisoned(block.value("NAME"))) {
+  if (surface.faces.empty() && !builder.elements_incomplete && !builder.is_poisoned(block.value("NAME"))) {
     builder.error(block, block.location,
                   "the surface has no faces; name element sets that have free faces, or a face label");
   }

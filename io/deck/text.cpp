@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+#include <utility>
 
 namespace balocco::deck {
 
@@ -17,19 +19,25 @@ char to_upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
 
+/// Letters to change, add, leave out or swap with their neighbour to turn one word into the other.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
+  std::vector<std::size_t> before, last, row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
   for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
+    before = std::exchange(last, row);
     row[0] = i;
     for (std::size_t j = 1; j <= b.size(); ++j) {
-      const std::size_t substitution = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-      diagonal = row[j];
-      row[j] = std::min({substitution, row[j] + 1, row[j - 1] + 1});
+      row[j] = std::min({last[j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1), last[j] + 1, row[j - 1] + 1});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) row[j] = std::min(row[j], before[j - 2] + 1);
     }
   }
   return row[b.size()];
+}
+
+std::string digits_of(std::string_view word) {
+  std::string digits;
+  std::copy_if(word.begin(), word.end(), std::back_inserter(digits), [](char c) { return c >= '0' && c <= '9'; });
+  return digits;
 }
 
 }  // namespace
@@ -106,11 +114,12 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string squeezed = squeeze(word);
   std::string best;
-  std::size_t best_distance = std::max<std::size_t>(2, squeezed.size() / 3) + 1;
+  // One slip in a word, two in a long one: beyond that another word is meant, and no guess is better than a wrong one.
+  std::size_t best_distance = (squeezed.size() < 4 ? 0 : squeezed.size() < 9 ? 1 : 2) + 1;
   for (const auto& candidate : candidates) {
     const std::string other = squeeze(candidate);
-    std::size_t distance = edit_distance(squeezed, other);
-    if (distance >= other.size()) continue;  // nothing in common
+    const std::size_t distance = edit_distance(squeezed, other);
+    if (digits_of(squeezed) != digits_of(other)) continue;  // C3D4 is not C3D6
     if (distance < best_distance) {
       best_distance = distance;
       best = candidate;

@@ -27,7 +27,8 @@ std::optional<std::int64_t> parse_integer(std::string_view text);
 /// Splits at commas outside quotes and trims; a trailing comma makes no empty last field.
 void split(std::string_view line, std::vector<std::string_view>& fields);
 
-/// The candidate with the smallest edit distance to `word`, or "" when none is close enough to be meant.
+/// The candidate that `word` is a slip of the pen for, or "": one letter changed, added, left out or swapped, two in a long
+/// word, the same digits.
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
 /// "; did you mean X?" or "" when nothing is near.

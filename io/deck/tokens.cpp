@@ -18,6 +18,7 @@ class LineCursor {
  public:
   explicit LineCursor(std::string_view text) : rest_(text) {}
 
+  /// Goes to the next line, if there is one.
   bool next(std::string_view& line) {
     if (rest_.empty()) return false;
     const auto end = rest_.find('\n');
@@ -43,9 +44,31 @@ bool is_binary(const std::string& text) {
   return text.find('\0') != std::string::npos || std::any_of(beginning.begin(), beginning.end(), control);
 }
 
+/// The byte order mark that some editors put before UTF-8 text.
+std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  return text;
+}
+
+bool is_utf16(std::string_view text) {
+  return text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF");
+}
+
 bool is_comment(std::string_view line) {
   return line.starts_with("**");
 }
+
+/// True if a line can go on with a keyword whose line ended with a comma: no parameter begins like a number.
+bool may_continue(std::string_view line) {
+  const auto first = trim(line.substr(0, line.find(',')));
+  return !line.empty() && line.front() != '*' && !first.empty() && !parse_real(first);
+}
+
+/// A keyword with the lines that it runs over.
+struct KeywordText {
+  std::string_view text;
+  std::int32_t line = 0;
+};
 
 class Tokenizer {
  public:
@@ -56,11 +79,12 @@ class Tokenizer {
 
  private:
   void read_lines(std::int32_t file, std::string_view text);
-  void keyword_line(std::string line, Location location);
+  void keyword_lines(const std::vector<KeywordText>& lines, std::int32_t file);
   void data_line(std::string_view line, Location location);
   void parameter_line(std::string_view line, Location location);
   std::string_view substitute(std::string_view line, Location location);
-  void open_block(const std::string& line, Location location);
+  void open_block(const std::vector<KeywordText>& lines, std::int32_t file);
+  static void add_parameter(Block& block, std::string_view field, std::int32_t line);
 
   const FileLoader& loader_;
   Diagnostics& diagnostics_;
@@ -93,11 +117,13 @@ void Tokenizer::read(const std::string& path, Location included_from, std::strin
   const auto file = static_cast<std::int32_t>(tokens_.files.size());
   tokens_.files.push_back(path);
   if (is_binary(stored)) {
-    diagnostics_.error({file, 1}, "", "this is not a text file; give a deck in Abaqus keyword syntax");
+    diagnostics_.error({file, 1}, "",
+                       is_utf16(stored) ? "the text is UTF-16; save it as plain text or UTF-8"
+                                        : "this is not a text file; give a deck in Abaqus keyword syntax");
     return;
   }
   chain_.push_back(normal);
-  read_lines(file, stored);
+  read_lines(file, without_mark(stored));
   chain_.pop_back();
 }
 
@@ -111,20 +137,22 @@ void Tokenizer::read_lines(std::int32_t file, std::string_view text) {
       data_line(line, location);
       continue;
     }
-    std::string whole(line);
-    while (whole.back() == ',' && cursor.next(line)) {
+    std::vector<KeywordText> keyword{{line, location.line}};
+    for (LineCursor ahead = cursor; keyword.back().text.back() == ',' && ahead.next(line);) {
       if (is_comment(line)) continue;
-      whole += line;
-      if (line.empty()) break;
+      if (!may_continue(line)) break;
+      keyword.push_back({line, ahead.number()});
+      cursor = ahead;
     }
-    keyword_line(std::move(whole), location);
+    keyword_lines(keyword, file);
   }
 }
 
-void Tokenizer::keyword_line(std::string line, Location location) {
-  inside_parameter_ = squeeze(line) == "*PARAMETER";
+void Tokenizer::keyword_lines(const std::vector<KeywordText>& lines, std::int32_t file) {
+  const Location location{file, lines.front().line};
+  inside_parameter_ = lines.size() == 1 && squeeze(lines.front().text) == "*PARAMETER";
   if (inside_parameter_) return;
-  open_block(std::string(substitute(line, location)), location);
+  open_block(lines, file);
   const Block& block = tokens_.blocks.back();
   const bool include = block.keyword == "INCLUDE";
   if (const Parameter* input = block.find("INPUT"); input != nullptr && input->has_value) {
@@ -139,30 +167,38 @@ void Tokenizer::keyword_line(std::string line, Location location) {
   }
 }
 
-void Tokenizer::open_block(const std::string& line, Location location) {
-  std::vector<std::string_view> fields;
-  split(std::string_view(line).substr(1), fields);
+void Tokenizer::open_block(const std::vector<KeywordText>& lines, std::int32_t file) {
   Block block;
-  block.location = location;
-  if (!fields.empty()) {
-    block.keyword = squeeze(fields[0]);
-    block.written = upper(fields[0]);
-  }
-  for (std::size_t i = 1; i < fields.size(); ++i) {
-    if (fields[i].empty()) continue;
-    Parameter parameter;
-    const auto equals = fields[i].find('=');
-    parameter.written = trim(fields[i].substr(0, equals));
-    parameter.name = squeeze(parameter.written);
-    if (equals != std::string_view::npos) {
-      parameter.has_value = true;
-      parameter.raw = trim(fields[i].substr(equals + 1));
-      std::erase(parameter.raw, '"');
-      parameter.value = upper(parameter.raw);
+  block.location = {file, lines.front().line};
+  std::vector<std::string_view> fields;
+  for (const auto& [text, line] : lines) {
+    split(substitute(text, {file, line}), fields);
+    std::size_t first = 0;
+    if (&text == &lines.front().text) {
+      const auto keyword = fields.front().substr(1);
+      block.keyword = squeeze(keyword);
+      block.written = upper(trim(keyword));
+      first = 1;
     }
-    block.parameters.push_back(std::move(parameter));
+    for (std::size_t i = first; i < fields.size(); ++i) add_parameter(block, fields[i], line);
   }
   tokens_.blocks.push_back(std::move(block));
+}
+
+void Tokenizer::add_parameter(Block& block, std::string_view field, std::int32_t line) {
+  if (field.empty()) return;
+  Parameter parameter;
+  const auto equals = field.find('=');
+  parameter.written = trim(field.substr(0, equals));
+  parameter.name = squeeze(parameter.written);
+  parameter.line = line;
+  if (equals != std::string_view::npos) {
+    parameter.has_value = true;
+    parameter.raw = trim(field.substr(equals + 1));
+    std::erase(parameter.raw, '"');
+    parameter.value = upper(parameter.raw);
+  }
+  block.parameters.push_back(std::move(parameter));
 }
 
 void Tokenizer::data_line(std::string_view line, Location location) {

@@ -25,6 +25,7 @@ struct Parameter {
   std::string value;    // upper case, quotes removed
   std::string raw;      // as in the deck, quotes removed: file names
   bool has_value = false;
+  std::int32_t line = 0;  // where it stands: a keyword may run over several lines
 };
 
 /// A keyword line and the data lines that follow it.

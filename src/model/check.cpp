@@ -8,6 +8,7 @@
 #include <set>
 
 #include "elements/element_type.hpp"
+#include "elements/solids/solid_jacobian.hpp"
 #include "materials/material_law.hpp"
 #include "model/diagnostics.hpp"
 
@@ -20,9 +21,9 @@ class Checker {
  public:
   explicit Checker(const Model& model) : model_(model) {}
 
-  std::vector<std::string> run() {
+  Findings run() {
     if (model_.elements.empty())
-      errors_.push_back((model_.files.empty() ? model_.name : model_.files[0]) +
+      found_.errors.push_back((model_.files.empty() ? model_.name : model_.files[0]) +
                         ": error: the model has no elements; add *NODE and *ELEMENT");
     check_sections();
     check_geometry();
@@ -30,25 +31,31 @@ class Checker {
     check_laws_of_sections();
     check_rigid_bodies();
     check_contact();
+    find_idle_nodes();
     for (const auto& step : model_.steps) check_step(step);
-    return std::move(errors_);
+    return std::move(found_);
   }
 
  private:
-  void error(Location location, const std::string& text) {
-    if (errors_.size() >= 100) return;
-    std::string message = fmt::format("{}: error: {}", model_.where(location), text);
-    if (std::find(errors_.begin(), errors_.end(), message) == errors_.end()) errors_.push_back(std::move(message));
+  void tell(std::vector<std::string>& messages, Location location, const char* severity, const std::string& text) {
+    if (messages.size() >= 100) return;
+    std::string message = fmt::format("{}: {}: {}", model_.where(location), severity, text);
+    if (std::find(messages.begin(), messages.end(), message) == messages.end()) messages.push_back(std::move(message));
   }
+  void error(Location location, const std::string& text) { tell(found_.errors, location, "error", text); }
+  void warning(Location location, const std::string& text) { tell(found_.warnings, location, "warning", text); }
 
   void check_sections();
   void check_geometry();
-  void check_element(const ElementTable& table, std::int32_t row);
+  void check_element(ElementRef element);
+  void check_jacobian(ElementRef element, double tolerance);
   void check_materials();
   void check_laws_of_sections();
   void check_law(const Section& section, std::int32_t material);
   void check_rigid_bodies();
   void check_contact();
+  void find_idle_nodes();
+  void check_loads(const Step& step);
   void check_step(const Step& step);
   void check_boundary(const Step& step);
   void check_density(const Step& step);
@@ -57,8 +64,9 @@ class Checker {
   }
 
   const Model& model_;
-  std::vector<std::string> errors_;
+  Findings found_;
   std::vector<std::int32_t> carrier_;  // rigid body that carries a node from the start, -1: none
+  std::vector<bool> idle_;             // nodes that belong to no element and no rigid body
 };
 
 Point minus(const Point& a, const Point& b) {
@@ -79,21 +87,24 @@ double six_volumes(const Point& a, const Point& b, const Point& c) {
 }
 
 void Checker::check_sections() {
-  for (const auto& table : model_.elements) {
+  for (std::size_t t = 0; t < model_.elements.size(); ++t) {
+    const auto& table = model_.elements[t];
     const auto none = std::find(table.section.begin(), table.section.end(), -1);
     if (none == table.section.end()) continue;
-    const auto row = none - table.section.begin();
+    const ElementRef first{static_cast<std::int32_t>(t), static_cast<std::int32_t>(none - table.section.begin())};
     const auto count = std::count(table.section.begin(), table.section.end(), -1);
-    error(
-        table.location[row],
-        fmt::format("*ELEMENT: element {} of type {} has no section ({} in all); add a section for a set that holds it",
-                    table.id[row], table.type->name, count));
+    error(table.location[first.row],
+          fmt::format("*ELEMENT: element {} of type {} has no section ({} in all); add a section for a set that holds it, or "
+                      "delete it if a mesher left it there",
+                      model_.element_name(first), table.type->name, count));
   }
 }
 
 /// Volume of a solid by its outward faces; a bilinear face counts as the mean of its two triangulations, which is
 /// exact.
-void Checker::check_element(const ElementTable& table, std::int32_t row) {
+void Checker::check_element(ElementRef element) {
+  const ElementTable& table = model_.elements[element.table];
+  const std::int32_t row = element.row;
   const Point base = point(table, row, 0);
   const auto at = [&](int node) { return minus(point(table, row, node), base); };
   const ElementType& type = *table.type;
@@ -112,23 +123,41 @@ void Checker::check_element(const ElementTable& table, std::int32_t row) {
       error(table.location[row],
             fmt::format("*ELEMENT: element {} has {} volume; list its nodes so that the first face runs "
                         "counter-clockwise seen from the opposite face, as {} wants",
-                        table.id[row], measure < -1e-12 * size * size * size ? "a negative" : "no", type.name));
+                        model_.element_name(element), measure < -1e-12 * size * size * size ? "a negative" : "no",
+                        type.name));
+    } else {
+      check_jacobian(element, 1e-12 * size * size * size);
     }
   } else if (type.shape == Shape::triangle || type.shape == Shape::quadrilateral) {
     const Point normal = type.nodes == 3 ? cross(at(1), at(2)) : cross(at(2), minus(at(3), at(1)));
     if (std::sqrt(dot(normal, normal)) <= 1e-12 * size * size) {
       error(table.location[row],
-            fmt::format("*ELEMENT: element {} has no area; its nodes must not lie on a line", table.id[row]));
+            fmt::format("*ELEMENT: element {} has no area; its nodes must not lie on a line",
+                        model_.element_name(element)));
     }
   } else if (type.shape == Shape::line && !(size > 0.0)) {
     error(table.location[row],
-          fmt::format("*ELEMENT: element {} has no length; its nodes must not coincide", table.id[row]));
+          fmt::format("*ELEMENT: element {} has no length; its nodes must not coincide",
+                      model_.element_name(element)));
   }
 }
 
+/// A brick may have a volume and yet be folded: two of its nodes interchanged.
+void Checker::check_jacobian(ElementRef element, double tolerance) {
+  const ElementTable& table = model_.elements[element.table];
+  std::vector<Point> nodes;
+  for (int node = 0; node < table.type->nodes; ++node) nodes.push_back(point(table, element.row, node));
+  const auto [jacobian, at] = smallest_jacobian(table.type->shape, nodes);
+  if (jacobian > tolerance) return;
+  error(table.location[element.row],
+        fmt::format("*ELEMENT: element {} is folded: its Jacobian determinant is {:.3g} at integration point {}; correct the "
+                    "order of its nodes (two interchanged?) or its shape",
+                    model_.element_name(element), jacobian, at + 1));
+}
+
 void Checker::check_geometry() {
-  for (const auto& table : model_.elements) {
-    for (std::int32_t row = 0; row < table.size(); ++row) check_element(table, row);
+  for (std::size_t t = 0; t < model_.elements.size(); ++t) {
+    for (std::int32_t row = 0; row < model_.elements[t].size(); ++row) check_element({static_cast<std::int32_t>(t), row});
   }
 }
 
@@ -188,7 +217,7 @@ void Checker::check_rigid_bodies() {
     const auto& body = model_.rigid_bodies[b];
     for (const auto* nodes : {&body.tie_nodes, &body.pin_nodes}) {
       for (const auto node : *nodes) {
-        const auto id = model_.nodes.id[node];
+        const std::string id = model_.node_name(node);
         if (reference[node] >= 0) {
           error(body.location,
                 fmt::format("*RIGID BODY: node {} is the reference node of another rigid body; take it out of the set",
@@ -225,6 +254,39 @@ void Checker::check_contact() {
   }
 }
 
+void Checker::find_idle_nodes() {
+  idle_.assign(model_.nodes.id.size(), true);
+  for (const auto& table : model_.elements) {
+    for (const auto node : table.connectivity) idle_[node] = false;
+  }
+  for (const auto& body : model_.rigid_bodies) {
+    idle_[body.reference_node] = false;
+    for (const auto* nodes : {&body.tie_nodes, &body.pin_nodes}) {
+      for (const auto node : *nodes) idle_[node] = false;
+    }
+  }
+  for (const auto& step : model_.steps) {
+    for (const auto& attachment : step.attachments) {
+      for (const auto node : attachment.nodes) idle_[node] = false;
+    }
+  }
+  const auto count = std::count(idle_.begin(), idle_.end(), true);
+  if (count == 0) return;
+  const auto first = static_cast<std::int32_t>(std::find(idle_.begin(), idle_.end(), true) - idle_.begin());
+  warning(model_.nodes.location[first],
+          fmt::format("*NODE: node {} belongs to no element and no rigid body ({} in all): nothing moves it", model_.node_name(first),
+                      count));
+}
+
+void Checker::check_loads(const Step& step) {
+  for (const auto& load : step.concentrated_loads) {
+    if (!idle_[load.node]) continue;
+    error({load.file, load.line},
+          fmt::format("*CLOAD: node {} belongs to no element and no rigid body, so the load acts on nothing; correct the node",
+                      model_.node_name(load.node)));
+  }
+}
+
 void Checker::check_boundary(const Step& step) {
   for (const auto& condition : step.boundary) {
     const std::int32_t body = carrier_[condition.node];
@@ -233,8 +295,8 @@ void Checker::check_boundary(const Step& step) {
           fmt::format("*BOUNDARY: node {} is carried by the rigid body of {}; prescribe its reference node {} instead "
                       "(in a step that attaches "
                       "nodes, *BOUNDARY, OP=NEW drops their earlier conditions)",
-                      model_.nodes.id[condition.node], model_.where(model_.rigid_bodies[body].location),
-                      model_.nodes.id[model_.rigid_bodies[body].reference_node]));
+                      model_.node_name(condition.node), model_.where(model_.rigid_bodies[body].location),
+                      model_.node_name(model_.rigid_bodies[body].reference_node)));
   }
 }
 
@@ -258,12 +320,13 @@ void Checker::check_step(const Step& step) {
     for (const auto node : change.nodes) carrier_[node] = change.release ? -1 : change.rigid_body;
   }
   check_boundary(step);
+  check_loads(step);
   check_density(step);
 }
 
 }  // namespace
 
-std::vector<std::string> check_model(const Model& model) {
+Findings check_model(const Model& model) {
   return Checker(model).run();
 }
 

@@ -8,8 +8,11 @@
 
 namespace balocco {
 
-/// Errors "FILE:LINE: error: what is wrong; how to mend it", empty for a sound model.
-std::vector<std::string> check_model(const Model& model);
+/// Whole messages "FILE:LINE: error: what is wrong; how to mend it"; a sound model has no errors.
+struct Findings {
+  std::vector<std::string> errors, warnings;
+};
+Findings check_model(const Model& model);
 
 /// What was understood: counts, mass by section, centre of gravity, inertia, bounding box, stable increment with the
 /// element that governs it, memory and run time on `ranks` ranks, warnings.

@@ -252,21 +252,6 @@ void Summary::memory_line() {
 
 void Summary::warnings() {
   if (model_.steps.empty()) line("warning: there are no steps: nothing would be run");
-  std::vector<bool> used(model_.nodes.id.size(), false);
-  for (const auto& table : model_.elements) {
-    for (const auto node : table.connectivity) used[node] = true;
-  }
-  for (const auto& body : model_.rigid_bodies) {
-    used[body.reference_node] = true;
-    for (const auto* nodes : {&body.tie_nodes, &body.pin_nodes}) {
-      for (const auto node : *nodes) used[node] = true;
-    }
-  }
-  const auto idle = std::count(used.begin(), used.end(), false);
-  if (idle > 0) {
-    const auto first = std::find(used.begin(), used.end(), false) - used.begin();
-    line("warning: {} nodes belong to no element and no rigid body, the first is {}", idle, model_.nodes.id[first]);
-  }
   for (const auto& material : model_.materials) {
     if (material.density <= 0.0) line("warning: material {} has no density", material.name);
   }

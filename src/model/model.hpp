@@ -24,8 +24,15 @@ struct Location {
 
 using Point = std::array<double, 3>;
 
+/// *INSTANCE of a part. The ids of its nodes and elements are those of the part plus an offset, so that all ids differ.
+struct Instance {
+  std::string name, part;
+  std::int64_t node_offset = 0, element_offset = 0;
+};
+
 struct NodeTable {
   std::vector<std::int64_t> id;
+  std::vector<std::int32_t> instance;  // row of Model::instances, -1: of the assembly; empty in a deck without instances
   std::vector<Point> coordinates;
   std::vector<Location> location;
   std::vector<double> thickness;  // *NODAL THICKNESS of shells, a value a node; empty: none given
@@ -38,6 +45,7 @@ struct NodeTable {
 struct ElementTable {
   const ElementType* type = nullptr;
   std::vector<std::int64_t> id;
+  std::vector<std::int32_t> instance;  // as for nodes
   std::vector<std::int32_t> connectivity;
   std::vector<std::int32_t> section;
   std::vector<Location> location;
@@ -240,6 +248,7 @@ struct Model {
   Units units;
   std::vector<std::string> files;  // the deck and what it includes
 
+  std::vector<Instance> instances;
   NodeTable nodes;
   std::vector<ElementTable> elements;
   std::vector<NodeSet> node_sets;
@@ -261,6 +270,9 @@ struct Model {
 
   /// "FILE:LINE" for messages.
   std::string where(Location location) const;
+  /// Ids as the deck says them: "27", or "INSTANCE.27".
+  std::string node_name(std::int32_t row) const;
+  std::string element_name(ElementRef element) const;
 };
 
 }  // namespace balocco
