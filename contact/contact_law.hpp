@@ -4,11 +4,11 @@
 
 #include <cmath>
 
+#include "master_surface.hpp"
 #include "math/dual.hpp"
 #include "math/pack.hpp"
 #include "math/tensor.hpp"
 #include "model/state.hpp"
-#include "rigid_surface.hpp"
 
 namespace balocco {
 
@@ -72,7 +72,7 @@ void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, 
 /// `point`: history at the start on entry, at the end on return. Friction acts from the increment in which the point
 /// closes: the spring starts from where the point was over the surface when that increment began.
 template <class T>
-ContactForce<T> contact_force(const RigidSurface& surface, const PenaltyParameters& parameters, const Vector3<T>& place,
+ContactForce<T> contact_force(const MasterSurface& surface, const PenaltyParameters& parameters, const Vector3<T>& place,
                               ContactPoint& point) {
   ContactForce<T> force;
   const Vector3<double> values{value_of(place[0]), value_of(place[1]), value_of(place[2])};

@@ -38,18 +38,28 @@ InputError refused(const Model& model, const ContactPair& pair, const std::strin
 /// Row of the rigid body whose surface the master is. @throws InputError if there is none.
 std::int32_t find_master_body(const Model& model, const ContactPair& pair) {
   const Surface& master = model.surfaces[pair.master];
-  if (master.kind != Surface::Kind::analytical || !master.analytical)
+  if (master.kind == Surface::Kind::nodes || (master.kind == Surface::Kind::analytical && !master.analytical))
     throw refused(model, pair,
-                  fmt::format("the master surface {} is not an analytical rigid surface; make it one with *SURFACE, "
-                              "TYPE=CYLINDER, REVOLUTION or SEGMENTS and *RIGID BODY, ANALYTICAL SURFACE={}",
+                  fmt::format("the master surface {} is not rigid; make it one with *SURFACE, TYPE=CYLINDER, REVOLUTION or "
+                              "SEGMENTS and *RIGID BODY, ANALYTICAL SURFACE={}, or of the sides of R3D3 and R3D4 elements",
                               master.name, master.name));
-  const auto body = std::find_if(model.rigid_bodies.begin(), model.rigid_bodies.end(),
-                                 [&](const RigidBody& b) { return b.analytical_surface == pair.master; });
+  const auto carries = [&](const RigidBody& body) {
+    if (master.analytical) return body.analytical_surface == pair.master;
+    return !master.faces.empty() && std::ranges::count(body.elements, master.faces.front().element) > 0;
+  };
+  const auto body = std::ranges::find_if(model.rigid_bodies, carries);
   if (body == model.rigid_bodies.end())
     throw refused(model, pair,
-                  fmt::format("the master surface {} belongs to no rigid body; write *RIGID BODY, ANALYTICAL "
-                              "SURFACE={}, REF NODE=...",
-                              master.name, master.name));
+                  fmt::format("the master surface {} belongs to no rigid body; write *RIGID BODY, {}, REF NODE=...", master.name,
+                              master.analytical ? "ANALYTICAL SURFACE=" + master.name : "ELSET= with its elements"));
+  auto elements = body->elements;
+  std::ranges::sort(elements);
+  for (const FaceRef& face : master.faces)
+    if (!std::ranges::binary_search(elements, face.element))
+      throw refused(model, pair,
+                    fmt::format("the facets of the master surface {} belong to different rigid bodies, or element {} to none; "
+                                "give each body a surface and a pair of its own",
+                                master.name, model.elements[face.element.table].id[face.element.row]));
   return static_cast<std::int32_t>(body - model.rigid_bodies.begin());
 }
 
@@ -61,10 +71,10 @@ RigidContact::RigidContact(const Model& model, std::int32_t pair, const Domain& 
   const Surface& master = model.surfaces[contact.master];
   master_body_ = find_master_body(model, contact);
   const Point reference = initial_rigid_bodies(model)[master_body_].position;
-  surface_ = RigidSurface(*master.analytical, reference);
+  surface_ = MasterSurface(model, master, reference);
   if (surface_.empty())
     throw refused(model, contact,
-                  fmt::format("the profile of the master surface {} has no length; give it segments", master.name));
+                  fmt::format("the master surface {} has no length or area; give it segments or facets", master.name));
   if (contact.interaction >= 0) {
     const Interaction& interaction = model.interactions[contact.interaction];
     friction_ = interaction.friction;

@@ -1,4 +1,4 @@
-// Contact of the nodes of a deformable surface with an analytical rigid surface: finite sliding, Coulomb friction with
+// Contact of the nodes of a deformable surface with a rigid surface, analytical or of facets: finite sliding, Coulomb friction with
 // elastic stick, one force law for the implicit and the explicit solver, so that contact forces import exactly.
 //
 // Normal force of a node: t = max(0, multiplier - stiffness * gap) (gap < 0: penetration). The multiplier is zero
@@ -15,10 +15,10 @@
 #include "communicator.hpp"
 #include "contact_law.hpp"
 #include "domain.hpp"
+#include "master_surface.hpp"
 #include "model/model.hpp"
 #include "model/results.hpp"
 #include "model/state.hpp"
-#include "rigid_surface.hpp"
 
 namespace balocco {
 
@@ -34,7 +34,7 @@ class RigidContact {
  public:
   /// Nodes of the slave surface on this rank, each with its tributary area and penalty stiffness, computed from the
   /// whole model so that every copy of a node has the same bits. @throws InputError where the surfaces cannot form a
-  /// pair (slave without faces or nodes, master not analytical or on no rigid body, slave facing away from the master
+  /// pair (slave without faces or nodes, master not rigid or on no rigid body, slave facing away from the master
   /// everywhere: normals tell).
   RigidContact(const Model& model, std::int32_t pair, const Domain& domain);
 
@@ -93,7 +93,7 @@ class RigidContact {
   PenaltyParameters parameters(std::int32_t point) const { return {stiffness_[point], friction_, elastic_slip_}; }
 
   std::int32_t master_body_ = -1;
-  RigidSurface surface_;
+  MasterSurface surface_;
   std::vector<std::int32_t> nodes_;  // in the order of their model rows
   std::vector<bool> owned_;
   std::vector<double> area_, stiffness_;

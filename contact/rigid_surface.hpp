@@ -5,14 +5,9 @@
 
 #include "math/tensor.hpp"
 #include "profile.hpp"
+#include "surface_point.hpp"
 
 namespace balocco {
-
-template <class T>
-struct SurfacePoint {
-  T distance;         // positive outside
-  Vector3<T> normal;  // unit, outward, body frame
-};
 
 class RigidSurface {
  public:

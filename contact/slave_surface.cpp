@@ -189,7 +189,7 @@ SlaveNodes slave_nodes(const Model& model, const ContactPair& pair) {
   return result;
 }
 
-bool faces_away(const Model& model, const Surface& slave, const RigidSurface& master, const Point& master_reference) {
+bool faces_away(const Model& model, const Surface& slave, const MasterSurface& master, const Point& master_reference) {
   if (slave.faces.empty()) return false;
   return std::all_of(slave.faces.begin(), slave.faces.end(), [&](const FaceRef& face) {
     const FaceGeometry geometry = face_geometry(model, face_nodes(model, face));

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "model/model.hpp"
-#include "rigid_surface.hpp"
+#include "master_surface.hpp"
 
 namespace balocco {
 
@@ -31,6 +31,6 @@ struct SlaveNodes {
 SlaveNodes slave_nodes(const Model& model, const ContactPair& pair);
 
 /// True if there are faces and not one of them looks towards `master` at the reference.
-bool faces_away(const Model& model, const Surface& slave, const RigidSurface& master, const Point& master_reference);
+bool faces_away(const Model& model, const Surface& slave, const MasterSurface& master, const Point& master_reference);
 
 }  // namespace balocco

@@ -29,7 +29,7 @@ double degrees_of(double radians) {
 }
 
 std::string label_of(const ElementType& type, std::int32_t face) {
-  if (type.section == Section::Kind::membrane) return face == 0 ? "SPOS" : "SNEG";
+  if (type.shape != Shape::wedge && type.shape != Shape::hexahedron) return face == 0 ? "SPOS" : "SNEG";
   return fmt::format("S{}", face + 1);
 }
 
@@ -291,6 +291,8 @@ void Writer::section(std::size_t row) {
       return spring("SPRING", section, row, set);
     case Section::Kind::dashpot:
       return spring("DASHPOT", section, row, set);
+    case Section::Kind::rigid:
+      return;  // *RIGID BODY names its elements
     case Section::Kind::membrane:
       section_line("MEMBRANE SECTION", section, row, set);
       if (section.plies.empty()) return line("{}", section.thickness);

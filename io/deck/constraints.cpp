@@ -2,10 +2,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "deck/builder.hpp"
 #include "deck/register.hpp"
+#include "deck/section_assignment.hpp"
 #include "deck/text.hpp"
+#include "elements/element_type.hpp"
 
 namespace balocco::deck {
 
@@ -39,6 +42,19 @@ void add_element_nodes(const Builder& builder, RigidBody& body) {
   }
 }
 
+/// Rigid elements have no properties but the body that they belong to; that is what their section says.
+void give_section(Builder& builder, const Block& block, const std::vector<ElementRef>& elements) {
+  const auto is_rigid = [&](ElementRef element) {
+    return builder.model.elements[element.table].type->section == Section::Kind::rigid;
+  };
+  std::vector<ElementRef> rigid;
+  std::ranges::copy_if(elements, std::back_inserter(rigid), is_rigid);
+  if (rigid.empty()) return;
+  Section section{.kind = Section::Kind::rigid, .element_set = block.value("ELSET")};
+  section.location = block.location;
+  assign_section(builder, block, std::move(section), rigid);
+}
+
 void declare(Builder& builder, const Block& block, std::int32_t reference) {
   RigidBody body;
   body.location = block.location;
@@ -64,6 +80,7 @@ void declare(Builder& builder, const Block& block, std::int32_t reference) {
     }
   }
   if (!good) return;
+  give_section(builder, block, body.elements);
   add_element_nodes(builder, body);
   sort_unique(body.tie_nodes);
   sort_unique(body.pin_nodes);

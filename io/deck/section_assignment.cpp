@@ -26,6 +26,8 @@ const char* describe(Section::Kind kind) {
       return "*SPRING";
     case Section::Kind::dashpot:
       return "*DASHPOT";
+    case Section::Kind::rigid:
+      return "*RIGID BODY with its ELSET";
   }
   return "";
 }

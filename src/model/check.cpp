@@ -56,6 +56,7 @@ class Checker {
   void check_contact();
   void find_idle_nodes();
   void check_loads(const Step& step);
+  bool is_rigid(const Surface& surface) const;
   void check_step(const Step& step);
   void check_boundary(const Step& step);
   void check_density(const Step& step);
@@ -94,9 +95,11 @@ void Checker::check_sections() {
     const ElementRef first{static_cast<std::int32_t>(t), static_cast<std::int32_t>(none - table.section.begin())};
     const auto count = std::count(table.section.begin(), table.section.end(), -1);
     error(table.location[first.row],
-          fmt::format("*ELEMENT: element {} of type {} has no section ({} in all); add a section for a set that holds it, or "
-                      "delete it if a mesher left it there",
-                      model_.element_name(first), table.type->name, count));
+          fmt::format("*ELEMENT: element {} of type {} has no section ({} in all); {}", model_.element_name(first), table.type->name,
+                      count,
+                      table.type->section == Section::Kind::rigid
+                          ? "name a set that holds it under *RIGID BODY, ELSET="
+                          : "add a section for a set that holds it, or delete it if a mesher left it there"));
   }
 }
 
@@ -236,16 +239,23 @@ void Checker::check_rigid_bodies() {
   }
 }
 
+bool Checker::is_rigid(const Surface& surface) const {
+  if (surface.kind == Surface::Kind::analytical) return true;
+  return !surface.faces.empty() && std::ranges::all_of(surface.faces, [&](const FaceRef& face) {
+    return model_.elements[face.element.table].type->section == Section::Kind::rigid;
+  });
+}
+
 void Checker::check_contact() {
   for (const auto& pair : model_.contact_pairs) {
     const auto& slave = model_.surfaces[pair.slave];
     const auto& master = model_.surfaces[pair.master];
     const auto carries = [&](const RigidBody& body) { return body.analytical_surface == pair.master; };
-    if (slave.kind == Surface::Kind::analytical || master.kind != Surface::Kind::analytical) {
-      error(pair.location,
-            fmt::format("*CONTACT PAIR: slave {} must be made of element faces or nodes and master {} be analytical",
-                        slave.name, master.name));
-    } else if (std::none_of(model_.rigid_bodies.begin(), model_.rigid_bodies.end(), carries)) {
+    if (slave.kind == Surface::Kind::analytical || !is_rigid(master)) {
+      error(pair.location, fmt::format("*CONTACT PAIR: slave {} must be made of element faces or nodes and master {} be "
+                                       "analytical or made of R3D3 and R3D4",
+                                       slave.name, master.name));
+    } else if (master.kind == Surface::Kind::analytical && std::none_of(model_.rigid_bodies.begin(), model_.rigid_bodies.end(), carries)) {
       error(pair.location,
             fmt::format("*CONTACT PAIR: surface {} belongs to no rigid body; add *RIGID BODY, ANALYTICAL SURFACE={}, "
                         "REF NODE=...",

@@ -169,7 +169,7 @@ struct SpringProperty {
 enum class HourglassControl { enhanced, stiffness };
 
 struct Section {
-  enum class Kind { solid, membrane, shell, truss, mass, rotary_inertia, spring, dashpot } kind = Kind::solid;
+  enum class Kind { solid, membrane, shell, truss, mass, rotary_inertia, spring, dashpot, rigid } kind = Kind::solid;
   std::string element_set;
   std::int32_t material = -1;     // -1: none, or composite
   std::int32_t orientation = -1;  // row of Model::orientations, -1: the default directions

@@ -14,7 +14,8 @@ ForceCurve::Value ForceCurve::at(double argument) const {
   if (right == table_.end() && argument == table_.back()[0]) --right;  // its last piece ends here
   if (right == table_.begin()) return {table_.front()[1], 0.0};
   if (right == table_.end()) return {table_.back()[1], 0.0};
-  const auto &[x0, f0] = *(right - 1), &[x1, f1] = *right;
+  const auto& [x0, f0] = *(right - 1);
+  const auto& [x1, f1] = *right;
   const double slope = (f1 - f0) / (x1 - x0);
   return {f0 + slope * (argument - x0), slope};
 }

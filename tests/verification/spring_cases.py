@@ -1,0 +1,197 @@
+#!/usr/bin/env python3
+"""Springs, dashpots and point masses against closed forms: spring_cases.py CASE BALOCCO FOLDER."""
+import math
+import sys
+
+import numpy as np
+
+from explicit_cases import Job, check, check_energy, failures
+
+HISTORY = """*OUTPUT, HISTORY, FREQUENCY=1
+*NODE OUTPUT, NSET=MASSES
+U, V, RF
+*ENERGY OUTPUT
+ALLKE, ALLSE, ALLVD, ALLWK, ETOTAL
+"""
+
+
+def oscillator(spring, increment, periods, dashpot="", speed=1e-2):
+    """A unit mass at the end of a spring of stiffness 1000 along x that starts with a velocity, in increments of that length."""
+    period = 2.0 * math.pi / math.sqrt(1000.0)
+    return f"""*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+*NSET, NSET=MASSES
+2
+*ELEMENT, TYPE=MASS, ELSET=MASS
+1, 2
+*MASS, ELSET=MASS
+1.
+{spring}{dashpot}*BOUNDARY
+1, 1, 3
+2, 2, 3
+*INITIAL CONDITIONS, TYPE=VELOCITY
+2, 1, {speed}
+*STEP
+*DYNAMIC, EXPLICIT{", DIRECT" if increment else ""}
+{f"{increment:.15g}" if increment else ""}, {periods * period:.15g}
+*BULK VISCOSITY
+0., 0.
+{HISTORY}*END STEP
+"""
+
+
+SPRINGA = "*ELEMENT, TYPE=SPRINGA, ELSET=SPRING\n2, 1, 2\n*SPRING, ELSET=SPRING\n\n1000.\n"
+SPRING1 = "*ELEMENT, TYPE=SPRING1, ELSET=SPRING\n2, 2\n*SPRING, ELSET=SPRING\n1\n1000.\n"
+SPRING2 = "*ELEMENT, TYPE=SPRING2, ELSET=SPRING\n2, 1, 2\n*SPRING, ELSET=SPRING\n1, 1\n1000.\n"
+DASHPOT = "*ELEMENT, TYPE=DASHPOTA, ELSET=DASHPOT\n3, 1, 2\n*DASHPOT, ELSET=DASHPOT\n\n{}\n"
+
+
+def stable_increment(run):
+    """DT-MK: spring 1000, mass 1, damping ratio 0 or 0.05: .063246 and .060162. Automatic increments are the closed form to 1e-6, and a
+    fixed one is stable at 0.999 of it and not at 1.001."""
+    omega = math.sqrt(1000.0)
+    for ratio in (0.0, 0.05):
+        critical = 2.0 / omega * (math.sqrt(1.0 + ratio * ratio) - ratio)
+        dashpot = DASHPOT.format(2.0 * ratio * omega) if ratio else ""
+        for spring in (SPRINGA, SPRING1, SPRING2):
+            job = run(oscillator(spring, 0.0, 5.0, dashpot), 1)
+            time = job.history("node_2", "U1")[0]
+            check(f"automatic increment, damping ratio {ratio}", time[3] - time[2], critical, 1e-6)
+        amplitude = {}
+        for factor in (0.999, 1.001):
+            job = run(oscillator(SPRINGA, factor * critical, 40.0, dashpot), 1)
+            amplitude[factor] = np.abs(job.history("node_2", "U1")[1])
+        half = len(amplitude[0.999]) // 2
+        check("below the limit it does not grow", float(amplitude[0.999][half:].max() <= 1.01 * amplitude[0.999][:half].max()), 1.0, 0.0)
+        check("beyond the limit it grows", float(amplitude[1.001][half:].max() > 2.0 * amplitude[1.001][:half].max()), 1.0, 0.0)
+
+
+def mass_on_spring(run):
+    """Free vibration, damped and not: period, decay, energies."""
+    omega, speed = math.sqrt(1000.0), 1e-2
+    for ratio in (0.0, 0.05):
+        dashpot = DASHPOT.format(2.0 * ratio * omega) if ratio else ""
+        for ranks in (1, 2):
+            job = run(oscillator(SPRINGA, 1e-3, 3.25, dashpot), ranks)
+            time, u = job.history("node_2", "U1")
+            damped = omega * math.sqrt(1.0 - ratio**2)
+            exact = speed / damped * np.exp(-ratio * omega * time) * np.sin(damped * time)
+            check(f"largest error of the motion, damping ratio {ratio}", np.abs(u - exact).max() / np.abs(exact).max(), 0.0, 2e-3)
+            check_energy(job, 1e-3)
+        if ratio:
+            check("dissipated", job.history("energy", "ALLVD")[1][-1] / (0.5 * speed**2),
+                  1.0 - (job.history("energy", "ALLKE")[1][-1] + job.history("energy", "ALLSE")[1][-1]) / (0.5 * speed**2), 1e-3)
+
+
+def bump_and_rebound(run):
+    """A mass that falls on a bump stop whose damper is stiffer in rebound: the table's own numbers, and the energy it takes."""
+    table = "*ELEMENT, TYPE=DASHPOTA, ELSET=DASHPOT\n3, 1, 2\n*DASHPOT, ELSET=DASHPOT, NONLINEAR\n\n-2., -1.\n0., 0.\n12., 1.\n"
+    job = run(oscillator(SPRINGA, 1e-3, 0.25, table, speed=0.5), 1)
+    rebound = job.history("energy", "ALLVD")[1][-1]
+    check_energy(job, 1e-3)
+    job = run(oscillator(SPRINGA, 1e-3, 0.25, table, speed=-0.5), 1)
+    bump = job.history("energy", "ALLVD")[1][-1]
+    check("rebound takes about six times what bump takes", rebound / bump, 6.0, 0.25)
+    one, two = (run(oscillator(SPRINGA, 0.0, 2.0, table, speed=0.5), ranks).history("node_2", "U1")[1].copy() for ranks in (1, 2))
+    check("one rank and two find the same bits", float(np.array_equal(one, two)), 1.0, 0.0)
+
+
+STATIC = """*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+*NSET, NSET=MASSES
+1, 2
+{}*STEP, NLGEOM
+*STATIC
+1., 1.
+{}*OUTPUT, FIELD, FREQUENCY=1, PRECISION=DOUBLE
+*NODE OUTPUT
+U, RF
+*ELEMENT OUTPUT
+S, E
+*OUTPUT, HISTORY, FREQUENCY=1
+*ENERGY OUTPUT
+ALLSE, ALLVD, ALLWK, ETOTAL
+*END STEP
+"""
+
+
+def static_springs(run):
+    """CalculiX's own spring2 and spring7, read as they are (with their blank lines), and a table's energy."""
+    nonlinear = """*ELEMENT, TYPE=SPRINGA, ELSET=EALL
+1, 1, 2
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+*SPRING, ELSET=EALL, NONLINEAR
+
+0., 0.
+10., 1.
+100., 20.
+"""
+    job = run(STATIC.format(nonlinear, "*CLOAD\n2, 1, 11.\n"), 1)
+    check("displacement (ccx spring2)", job.frame("U", -1)[1, 0], 1.0 + 19.0 / 90.0, 1e-9)
+    check("strain energy", job.history("energy", "ALLSE")[1][-1], 5.0 + 0.5 * (10.0 + 11.0) * 19.0 / 90.0, 1e-9)
+    fixed = """*ELEMENT, TYPE=SPRING2, ELSET=EALL
+1, 1, 2
+*BOUNDARY
+1, 1, 3
+2, 3, 3
+*SPRING, ELSET=EALL
+1, 1
+10.
+"""
+    job = run(STATIC.format(fixed, "*BOUNDARY\n2, 1, 1, 2.\n2, 2, 2, 3.\n"), 2)
+    check("reaction (ccx spring7)", job.frame("RF", -1)[1, 0], 20.0, 1e-12)
+    check("reaction at the other end", job.frame("RF", -1)[0, 0], -20.0, 1e-12)
+
+
+def dashpot_in_statics(run):
+    """A driven dashpot in a static step: velocity = displacement increment / time increment."""
+    dashpot = """*ELEMENT, TYPE=DASHPOTA, ELSET=EALL
+1, 1, 2
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+*DASHPOT, ELSET=EALL
+
+5.
+"""
+    deck = STATIC.format(dashpot, "*BOUNDARY\n2, 1, 1, 0.3\n").replace("1., 1.\n", "0.5, 2.\n")
+    job = run(deck, 1)
+    check("reaction", job.frame("RF", -1)[1, 0], 5.0 * 0.3 / 2.0, 1e-12)
+    energy = job.history("energy", "ALLVD")[1]
+    check("dissipated", energy[-1] - energy[1], 5.0 * (0.3 / 2.0) ** 2 * 1.5, 1e-9)
+
+
+def swinging_spring(run):
+    """A mass on a stiff axial spring swings through a full turn in free fall of no gravity: circular motion, the pull is m v^2 / l."""
+    stiffness, speed = 1e4, 2.0
+    deck = oscillator(SPRINGA.replace("1000.", f"{stiffness}"), 0.0, 10.0).replace("2, 2, 3\n", "").replace("2, 1, 0.01", f"2, 2, {speed}")
+    job = run(deck, 2)
+    check_energy(job, 1e-3)
+    time, x = job.history("node_2", "U1")
+    y = job.history("node_2", "U2")[1]
+    angle = np.unwrap(np.arctan2(y, 1.0 + x))
+    radius = np.hypot(1.0 + x, y)
+    check("angular momentum", radius[-1] ** 2 * (angle[-1] - angle[-2]) / (time[-1] - time[-2]), speed, 2e-3)
+    # It breathes about the length at which m v^2 / l = k (l - 1), conserving v l.
+    check("mean length", radius.mean(), 1.0 + speed**2 / stiffness, 1e-4)
+
+
+def main():
+    case, balocco, folder = sys.argv[1:4]
+    counter = iter(range(1000))
+
+    def run(text, ranks):
+        job = Job(f"{case}_{next(counter)}", balocco, str(ranks), folder)
+        job.run(text)
+        return job
+
+    globals()[case](run)
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()
