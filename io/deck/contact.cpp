@@ -119,17 +119,24 @@ void apply_slip_tolerance(Builder& builder, std::int32_t pair) {
     builder.model.interactions[interaction].elastic_slip = tolerance->second * sum / static_cast<double>(edges);
 }
 
+bool is_rigid(const Model& model, const Surface& surface) {
+  if (surface.kind == Surface::Kind::analytical) return true;
+  return !surface.faces.empty() && std::ranges::all_of(surface.faces, [&](const FaceRef& face) {
+    return model.elements[face.element.table].type->section == Section::Kind::rigid;
+  });
+}
+
 /// Adds the pair, or in a step takes up the one that is known (a deck may repeat its pairs for the explicit steps).
 void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t interaction) {
   const auto surfaces = surfaces_of(builder, block, row);
   if (!surfaces) return;
   const auto& all = builder.model.surfaces;
   const bool told = builder.is_poisoned(row.name(0)) || builder.is_poisoned(row.name(1));
-  if (all[(*surfaces)[1]].kind != Surface::Kind::analytical || all[(*surfaces)[0]].kind == Surface::Kind::analytical) {
+  if (!is_rigid(builder.model, all[(*surfaces)[1]]) || all[(*surfaces)[0]].kind == Surface::Kind::analytical) {
     if (!told) {
       row.error(fmt::format(
           "slave {} and master {} do not fit: the slave is made of element faces or nodes, the master is an analytical "
-          "rigid surface; swap or replace them",
+          "rigid surface or made of R3D3 and R3D4; swap or replace them",
           row.name(0), row.name(1)));
     }
     return;

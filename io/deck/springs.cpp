@@ -54,14 +54,14 @@ bool read_slope(Builder& builder, const Block& block, std::span<const DataLine> 
     builder.error(block, block.location, fmt::format("the {} is missing; add a data line", what));
     return false;
   }
-  Row row(builder, block, lines[0]);
-  spring.slope = row.real(0, what);
-  row.at_most(1);
-  if (row.ok() && lines.size() > 1) {
+  if (lines.size() > 1) {
     builder.error(block, lines[1].location,
                   fmt::format("a linear one has one line with its {}; remove this line or add NONLINEAR", what));
     return false;
   }
+  Row row(builder, block, lines[0]);
+  spring.slope = row.real(0, what);
+  row.at_most(1);
   return row.ok();
 }
 

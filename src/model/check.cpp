@@ -57,6 +57,10 @@ class Checker {
   void find_idle_nodes();
   void check_loads(const Step& step);
   bool is_rigid(const Surface& surface) const;
+  /// Springs and dashpots between degrees of freedom may join nodes that lie in one place.
+  bool acts_in_fixed_directions(std::int32_t section) const {
+    return section >= 0 && model_.sections[section].spring.freedom[0] >= 0;
+  }
   void check_step(const Step& step);
   void check_boundary(const Step& step);
   void check_density(const Step& step);
@@ -138,7 +142,7 @@ void Checker::check_element(ElementRef element) {
             fmt::format("*ELEMENT: element {} has no area; its nodes must not lie on a line",
                         model_.element_name(element)));
     }
-  } else if (type.shape == Shape::line && !(size > 0.0)) {
+  } else if (type.shape == Shape::line && !(size > 0.0) && !acts_in_fixed_directions(table.section[row])) {
     error(table.location[row],
           fmt::format("*ELEMENT: element {} has no length; its nodes must not coincide",
                       model_.element_name(element)));
