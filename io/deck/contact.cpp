@@ -119,13 +119,6 @@ void apply_slip_tolerance(Builder& builder, std::int32_t pair) {
     builder.model.interactions[interaction].elastic_slip = tolerance->second * sum / static_cast<double>(edges);
 }
 
-bool is_rigid(const Model& model, const Surface& surface) {
-  if (surface.kind == Surface::Kind::analytical) return true;
-  return !surface.faces.empty() && std::ranges::all_of(surface.faces, [&](const FaceRef& face) {
-    return model.elements[face.element.table].type->section == Section::Kind::rigid;
-  });
-}
-
 /// Adds the pair, or in a step takes up the one that is known (a deck may repeat its pairs for the explicit steps).
 void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t interaction) {
   const auto surfaces = surfaces_of(builder, block, row);

@@ -1,5 +1,6 @@
 #include "elements/element_type.hpp"
 
+#include <algorithm>
 #include <functional>
 #include <map>
 
@@ -24,6 +25,13 @@ std::vector<const ElementType*> element_types() {
   std::vector<const ElementType*> types;
   for (const auto& entry : table()) types.push_back(&entry.second);
   return types;
+}
+
+bool is_rigid(const Model& model, const Surface& surface) {
+  if (surface.kind == Surface::Kind::analytical) return true;
+  return !surface.faces.empty() && std::ranges::all_of(surface.faces, [&](const FaceRef& face) {
+    return model.elements[face.element.table].type->section == Section::Kind::rigid;
+  });
 }
 
 RegisterElement::RegisterElement(ElementType type) {

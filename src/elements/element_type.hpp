@@ -36,6 +36,9 @@ const ElementType* find_element_type(std::string_view name);
 /// All registered types, sorted by name: for messages that name the nearest known word.
 std::vector<const ElementType*> element_types();
 
+/// True for analytical surfaces and for those of R3D3 and R3D4 alone: what can be the master of a contact pair.
+bool is_rigid(const Model& model, const Surface& surface);
+
 struct RegisterElement {
   explicit RegisterElement(ElementType type);
 };

@@ -56,7 +56,6 @@ class Checker {
   void check_contact();
   void find_idle_nodes();
   void check_loads(const Step& step);
-  bool is_rigid(const Surface& surface) const;
   /// Springs and dashpots between degrees of freedom may join nodes that lie in one place.
   bool acts_in_fixed_directions(std::int32_t section) const {
     return section >= 0 && model_.sections[section].spring.freedom[0] >= 0;
@@ -243,19 +242,12 @@ void Checker::check_rigid_bodies() {
   }
 }
 
-bool Checker::is_rigid(const Surface& surface) const {
-  if (surface.kind == Surface::Kind::analytical) return true;
-  return !surface.faces.empty() && std::ranges::all_of(surface.faces, [&](const FaceRef& face) {
-    return model_.elements[face.element.table].type->section == Section::Kind::rigid;
-  });
-}
-
 void Checker::check_contact() {
   for (const auto& pair : model_.contact_pairs) {
     const auto& slave = model_.surfaces[pair.slave];
     const auto& master = model_.surfaces[pair.master];
     const auto carries = [&](const RigidBody& body) { return body.analytical_surface == pair.master; };
-    if (slave.kind == Surface::Kind::analytical || !is_rigid(master)) {
+    if (slave.kind == Surface::Kind::analytical || !is_rigid(model_, master)) {
       error(pair.location, fmt::format("*CONTACT PAIR: slave {} must be made of element faces or nodes and master {} be "
                                        "analytical or made of R3D3 and R3D4",
                                        slave.name, master.name));
