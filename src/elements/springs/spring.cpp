@@ -45,8 +45,8 @@ void SpringGroup::find_axial_lengths(const GroupInput& input) {
     const auto axis = vector(input.model.nodes.coordinates[node[1]]) - vector(input.model.nodes.coordinates[node[0]]);
     origin_.push_back(std::sqrt(dot(axis, axis)));
     if (origin_.back() > 0.0) continue;
-    throw InputError(fmt::format("{}: error: *ELEMENT: {} {} has no length, hence no line to act along; correct its nodes",
-                                 input.model.where(table.location[rows_[element]]), table.type->name, table.id[rows_[element]]));
+    throw InputError(fmt::format("{}: error: *ELEMENT: element {} has no length; its nodes must not coincide",
+                                 input.model.where(table.location[rows_[element]]), table.id[rows_[element]]));
   }
 }
 
