@@ -106,7 +106,7 @@ TEST(SlaveSurface, PairsThatCannotWorkAreRefusedWithTheirCure) {
 
   model = plate_on_road(1);
   model.contact_pairs[0].master = 0;
-  expect_refusal(model, "not an analytical rigid surface");
+  expect_refusal(model, "the master surface TREAD belongs to no rigid body");
 
   model = plate_on_road(1);
   model.contact_pairs[0].slave = 1;

@@ -156,7 +156,7 @@ TEST(DeckMesh, ElementNeedsItsSectionOnce) {
   const std::string errors = errors_of("*NODE\n1\n2, 1.\n3, 2.\n" + bar + "*ELEMENT, TYPE=T3D2\n2, 2, 3\n" + bars);
   EXPECT_EQ(errors,
             "job.inp:8: error: *ELEMENT: element 2 of type T3D2 has no section (1 in all); add a section for a set "
-            "that holds it\n");
+            "that holds it, or delete it if a mesher left it there\n");
 }
 
 }  // namespace
