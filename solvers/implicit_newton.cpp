@@ -329,8 +329,9 @@ bool ImplicitNewton::penetrates(const IncrementGoal& goal, const NewtonResult& r
   observer_.log(fmt::format("    penetration {:.3e} exceeds {:.3e}: contact forces augmented", penetration, allowed));
   discontinuous_ = 0;
   history_.clear();
-  // Each augmentation is a new problem, with its own right to iterate.
+  // Each augmentation is a new problem, with its own right to iterate: how small the last correction was says nothing of it.
   iterations_before_ = result.iterations - 1;
+  largest_correction_ = std::numeric_limits<double>::infinity();
   return true;
 }
 

@@ -211,6 +211,20 @@ def touchdown(runner):
     close(force[0] / force[2], 0.5, 1e-8, "friction / normal force")
 
 
+def far_reference(runner):
+    """The road's reference node lies 1e9 away: the model's extent makes Newton's last corrections too small to matter, and still
+    each augmentation of the contact must be solved for. The force is that of a road with a near reference node."""
+    forces = []
+    for name, x in (("near", 0.0), ("far", 1e9)):
+        deck = foot_on_road(0.5, 0.3)
+        deck.text = [text.replace("9001, 0., 0., 0.", "9001, %g, 0., 0." % x) for text in deck.text]
+        deck.add("*STEP, NLGEOM\n*STATIC, DIRECT\n1., 1.\n*BOUNDARY\n9001, 1, 6\n9002, 1, 2\n9002, 4, 6\n9002, 3, 3, -0.06")
+        deck.add(OUTPUT + "*END STEP")
+        forces.append(runner.run(name, deck).at(9001, "RF")[2])
+    # What Newton leaves where the model's extent decides: 2e-16 of it in displacement, of 0.06.
+    close(forces[1], forces[0], 1e-4, "force on the road")
+
+
 def road(runner):
     """A block pressed on the road, which then moves sideways: the pressing force comes back as the road's reaction, friction is mu
     times it once all slides, and less before."""
@@ -299,6 +313,7 @@ CASES = {
     "hencky": hencky,
     "road": road,
     "touchdown": touchdown,
+    "far_reference": far_reference,
     "ring": ring,
     "flat_sheet": flat_sheet,
     "mechanism": mechanism,

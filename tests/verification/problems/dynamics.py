@@ -196,3 +196,57 @@ def critical_increment(session, kind, n):
         ratio = math.sqrt((0.5 * doubled + 1.0) / 2.0)
         found["from %g dt, us" % share] = share * critical / ratio * 1e6
     return found
+
+
+OSCILLATOR = """*NODE, NSET=ALL
+1, 1., 0., 0.
+*ELEMENT, TYPE=MASS, ELSET=BOB
+1, 1
+*MASS, ELSET=BOB
+1.
+*ELEMENT, TYPE=SPRING1, ELSET=SPRING
+2, 1
+*SPRING, ELSET=SPRING
+1
+1000.
+{damper}*BOUNDARY
+1, 2, 3
+*INITIAL CONDITIONS, TYPE=VELOCITY
+ALL, 1, 1e-3
+*STEP
+*DYNAMIC, EXPLICIT, DIRECT USER CONTROL
+{increment:.17g}, {end:.17g}
+*BULK VISCOSITY
+0., 0.
+*OUTPUT, HISTORY, FREQUENCY=1
+*NODE OUTPUT, NSET=ALL
+U1
+*END STEP
+"""
+DAMPER = "*ELEMENT, TYPE=DASHPOT1, ELSET=DAMPER\n3, 1\n*DASHPOT, ELSET=DAMPER\n1\n%.17g\n"
+
+
+@problem("DT-MK", "critical increment of a mass 1 on a spring 1000, from its motion at 0.999 of it: damping 0 and 0.05 of critical",
+         "2 / w (sqrt(1 + xi^2) - xi)", {"xi 0, s": (0.0632456, 1e-6), "xi 0.05, s": (0.0601622, 1e-5)}, {"SPRING1": (1,)}, str)
+def oscillator(session, kind, n):
+    """Three successive displacements give w dt and xi of x'' dt^2 + 2 xi w dt (x' dt) + (w dt)^2 x = 0, by least squares; the
+    scheme, whose damping lags by half an increment, is stable for (w dt)^2 + 4 xi w dt < 4."""
+    found, w = {}, math.sqrt(1000.0)
+    for damping, critical in ((0.0, 0.0632456), (0.05, 0.0601622)):
+        increment = 0.999 * critical
+        deck = OSCILLATOR.format(damper=DAMPER % (2.0 * damping * w) if damping else "", increment=increment, end=60.5 * increment)
+        x = history(session.run("oscillator_%g" % damping, deck), "node_1", "U1")[1][:60]
+        matrix = -np.stack([x[1:-1], x[1:-1] - x[:-2]], axis=1)
+        columns = matrix if damping else matrix[:, :1]
+        fitted = np.linalg.lstsq(columns, x[2:] - 2.0 * x[1:-1] + x[:-2], rcond=None)[0]
+        stiffness, friction = fitted[0], fitted[1] if damping else 0.0
+        share = math.sqrt(stiffness)
+        xi = 0.5 * friction / share
+        found["xi %g, s" % damping] = increment * 2.0 * (math.sqrt(1.0 + xi * xi) - xi) / share
+    return found
+
+
+@problem("ENERGY", "a soft block tumbles freely", "conservation", {"energy drift": (0.0, 1e-3)}, {kind: (1,) for kind in ("C3D8", "C3D8R")},
+         lambda n: "4 x 4 x 4", {"C3D8R": 1e-3})
+def energy(session, kind, n):
+    return {"energy drift": energy_drift(session.run("tumbling_" + kind, (DECKS / "free_flight.inp").read_text().replace("C3D8R", kind)))}

@@ -1,7 +1,8 @@
 """NAFEMS free-vibration problems of beams, plates and membranes."""
 import math
 
-from meshes import SHELLS, SOLIDS, Mesh, elastic, sheet
+import numpy as np
+from meshes import SHELLS, SOLIDS, Mesh, angle, block, elastic, sheet
 from verification import problem
 
 STEEL = elastic(200e9, 0.3, 8000.0)
@@ -68,3 +69,38 @@ def tapered_membrane(session, kind, n):
     in_plane = mesh.hold(mesh.at(t=0.0), (3,)) if kind in SOLIDS else mesh.hold(mesh.at(), (3, 4, 5))
     found = modes(session, "fv32_%s_%d" % (kind, n), mesh, 6, in_plane + mesh.hold(mesh.at(r=0.0), (1, 2, 6)))
     return {"f%d, Hz" % (1 + i): found[i] for i in range(6)}
+
+
+def sector(kind, n, layers, place, system):
+    """A slender sector of a body of revolution, all of whose nodes have axes of the cylindrical or spherical `system`."""
+    mesh = block(kind, (n, 1, layers), place)
+    mesh.section(1.0, STEEL)
+    mesh.sets["EVERY"] = list(mesh.nodes)
+    mesh.add("*TRANSFORM, NSET=EVERY, TYPE=%s\n0., 0., 0., 0., 0., 1." % system)
+    return mesh
+
+
+@problem("FV41", "free cylinder, middle radius 2, t 0.4, L 10: axisymmetric modes by a sector of 5 degrees", "NAFEMS FV41; Altair OS-V 0450",
+         listed((243.53, 377.41, 394.11, 397.72, 405.28), 2, 0.01), {kind: (3, 6) for kind in ("C3D8", "C3D8R")},
+         lambda n: "%d x %d" % (n, 10 * n))
+def free_cylinder(session, kind, n):
+    def place(r, s, t):
+        radius, turned = 1.8 + 0.4 * r, angle(5.0) * (s - 0.5)
+        return radius * math.cos(turned), radius * math.sin(turned), 10.0 * t
+
+    mesh = sector(kind, n, 10 * n, place, "C")
+    found = modes(session, "fv41_%s_%d" % (kind, n), mesh, 7, "EVERY, 2\n")
+    return {"f%d, Hz" % (2 + i): found[i] for i in range(5)}
+
+
+@problem("FV42", "thick hollow sphere 1.8 to 6: radial modes by a sector of 5 degrees", "NAFEMS FV42",
+         listed((369.91, 838.03, 1451.2, 2117.0, 2795.8), 1, 0.01), {kind: (16, 32) for kind in ("C3D8", "C3D8R")}, str)
+def hollow_sphere(session, kind, n):
+    """Nodes move along their radii only: faces of the sector are those of a pyramid whose edges are rays."""
+    def place(r, s, t):
+        ray = np.array([1.0, math.tan(angle(5.0) * (s - 0.5)), math.tan(angle(5.0) * (t - 0.5))])
+        return tuple((1.8 + 4.2 * r) * ray / np.linalg.norm(ray))
+
+    mesh = sector(kind, n, 1, place, "S")
+    found = modes(session, "fv42_%s_%d" % (kind, n), mesh, 5, "EVERY, 2, 3\n")
+    return {"f%d, Hz" % (1 + i): found[i] for i in range(5)}

@@ -28,6 +28,11 @@ TABLE = """
 """
 
 
+def percent(error, target):
+    """An error relative to its target; as it is where the target is zero."""
+    return "%+.2f %%" % (100 * error) if target.value else "%+.1e" % error
+
+
 class Report:
     """Lines of the table, and what is to be said about all of them."""
 
@@ -53,11 +58,11 @@ class Report:
             note = ""
             if i == len(meshes) - 1 and abs(errors[i]) > target.tolerance:
                 note = "missed (%g %%): %s" % (100 * target.tolerance, chosen.note(kind, quantity) or "not explained")
-                self.missed.append("%s, %s by %s: %+.2f %%" % (chosen.name, quantity, kind, 100 * errors[i]))
+                self.missed.append("%s, %s by %s: %s" % (chosen.name, quantity, kind, percent(errors[i], target)))
             elif i == len(meshes) - 1:
                 self.reached += 1
-            self.lines.append("| %s | %s | %s | %.5g | %.5g | %+.2f %% | %s | %.1f | %s |" % (
-                quantity, kind, chosen.mesh(n), got[quantity], target.value, 100 * errors[i],
+            self.lines.append("| %s | %s | %s | %.5g | %.5g | %s | %s | %.1f | %s |" % (
+                quantity, kind, chosen.mesh(n), got[quantity], target.value, percent(errors[i], target),
                 "" if order is None else "%.1f" % order, seconds, note))
 
     def summary(self):
