@@ -255,7 +255,7 @@ void History::sample(const ResultSource& source, const Progress& progress, bool 
   std::vector<bool> due;
   for (Schedule& schedule : schedules_) {
     due.push_back(all || schedule.due(progress.step_time, progress.increment, progress.step_finished));
-    schedule.pass(progress.step_time);
+    if (due.back()) schedule.pass(progress.step_time);
   }
   Row row(source, local_nodes_);
   std::vector<Group*> taken;

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "model/results.hpp"
+
 namespace balocco {
 
 Schedule Schedule::every(double interval, double duration) {
@@ -16,6 +18,12 @@ Schedule Schedule::every(double interval, double duration) {
 Schedule Schedule::equal_intervals(std::int32_t count, double duration) {
   Schedule schedule = every(0.0, duration);
   schedule.count_ = count;
+  return schedule;
+}
+
+Schedule Schedule::at_leisure(std::int32_t count, double duration) {
+  Schedule schedule = equal_intervals(count, duration);
+  schedule.at_leisure_ = true;
   return schedule;
 }
 
@@ -45,7 +53,7 @@ Schedule Schedule::of(const FieldOutput& output, const Step& step) {
 Schedule Schedule::of(const HistoryOutput& output, const Step& step) {
   if (output.time_interval) return every(*output.time_interval, step.duration());
   if (output.frequency) return every_increments(*output.frequency, step.duration());
-  if (!step.has_few_increments()) return equal_intervals(200, step.duration());
+  if (!step.has_few_increments()) return at_leisure(200, step.duration());
   return every_increments(1, step.duration());
 }
 
@@ -64,7 +72,8 @@ double Schedule::mark(std::int64_t index) const {
 bool Schedule::due(double step_time, std::int64_t increment, bool finished) const {
   if (finished) return true;
   if (increments_ > 0) return increment % increments_ == 0;
-  return step_time >= next();
+  if (at_leisure_ && increment % regular_increments != 0) return false;
+  return step_time >= mark(next_index_) - tolerance_;
 }
 
 void Schedule::pass(double step_time) {
@@ -72,6 +81,9 @@ void Schedule::pass(double step_time) {
   while (mark(next_index_) <= step_time + tolerance_ && mark(next_index_) < duration_) ++next_index_;
 }
 
-double Schedule::next() const { return increments_ > 0 ? 0.0 : mark(next_index_) - tolerance_; }
+double Schedule::next() const {
+  if (increments_ > 0) return 0.0;
+  return at_leisure_ ? duration_ : mark(next_index_) - tolerance_;
+}
 
 }  // namespace balocco

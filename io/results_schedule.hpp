@@ -12,10 +12,13 @@ namespace balocco {
 class Schedule {
  public:
   static Schedule of(const FieldOutput& output, const Step& step);
-  /// Where nothing was said: every static increment, 200 intervals of an explicit step (Abaqus).
+  /// Where nothing was said: every static increment, 200 intervals of an explicit step (Abaqus), at leisure.
   static Schedule of(const HistoryOutput& output, const Step& step);
   static Schedule every(double interval, double duration);
   static Schedule equal_intervals(std::int32_t count, double duration);
+  /// As equal_intervals, but only at increments in which an explicit step calls its observer anyhow (regular_increments): what
+  /// nobody asked for must cost nothing.
+  static Schedule at_leisure(std::int32_t count, double duration);
   static Schedule at(std::vector<double> times, double duration);
   static Schedule every_increments(std::int32_t count, double duration);
 
@@ -34,6 +37,7 @@ class Schedule {
   std::int64_t count_ = 0;          // number of equal intervals, or
   std::vector<double> times_;       // marks, or
   std::int32_t increments_ = 0;     // increments between marks
+  bool at_leisure_ = false;
   std::int64_t next_index_ = 1;
 };
 
