@@ -2,6 +2,7 @@
 // double) and for the implicit solver (T = Dual).
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 
 #include "master_surface.hpp"
@@ -67,6 +68,27 @@ void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, 
   for (int i = 0; i < 3; ++i)
     point.anchor[i] =
         value_of(place[i]) - value_of(nearest.distance) * value_of(nearest.normal[i]) - kept * value_of(stretch[i]);
+}
+
+/// Force over a cycle of a unilateral spring, stiffer than an explicit cycle could follow: that which gives the node just the
+/// energy that the spring loses between the middles of two increments (discrete gradient; Simo, Tarnow and Wong, Comput.
+/// Methods Appl. Mech. Engrg. 100, 1992), there the trapezoidal rule, stable for any stiffness. Pressure p(gap) = max(0,
+/// multiplier - stiffness * gap), energy p^2 / (2 stiffness). `before`: gap in the middle of the increment that led here;
+/// `after`: in the middle of the next one if no force acts; `yielding`: what a unit force adds to it.
+inline double stiff_normal_force(double multiplier, double stiffness, double before, double after, double yielding) {
+  const double old_pressure = multiplier - stiffness * before, new_pressure = multiplier - stiffness * after;
+  if (old_pressure <= 0.0) {
+    if (new_pressure <= 0.0) return 0.0;
+    const double k = stiffness, c = yielding;  // f (before - after - c f) = (new_pressure - k c f)^2 / (2 k)
+    const double half = k * (before - after + c * new_pressure);
+    const double root = std::sqrt(std::max(0.0, half * half - (k * c + 2.0) * k * c * new_pressure * new_pressure));
+    return new_pressure * new_pressure / (half + root);
+  }
+  const double kept = 0.5 * (old_pressure + new_pressure) / (1.0 + 0.5 * stiffness * yielding);
+  if (new_pressure - stiffness * yielding * kept >= 0.0) return kept;
+  const double opening = after - before;  // it opens: f (opening + c f) = old_pressure^2 / (2 k)
+  const double square = old_pressure * old_pressure / stiffness;
+  return square / (opening + std::sqrt(opening * opening + 2.0 * yielding * square));
 }
 
 /// `point`: history at the start on entry, at the end on return. Friction acts from the increment in which the point

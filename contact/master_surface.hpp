@@ -22,6 +22,11 @@ class MasterSurface {
   bool surely_outside(const Vector3<double>& place) const {
     return std::visit([&](const auto& shape) { return shape.surely_outside(place); }, shape_);
   }
+  /// Whether a profile had ended where it is nearest to `place`, and only its continuation is there. Meshes end where they end.
+  bool past_end(const Vector3<double>& place) const {
+    const auto* const profile = std::get_if<RigidSurface>(&shape_);
+    return profile != nullptr && profile->past_end(place);
+  }
   /// `place` in the body frame. T: double or Dual.
   template <class T>
   SurfacePoint<T> nearest(const Vector3<T>& place) const {

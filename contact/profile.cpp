@@ -136,6 +136,15 @@ double Profile::distance_to(const Piece& piece, const PlanePoint& point, int& en
   return end < 0 ? to_start : to_end;
 }
 
+bool Profile::past_end(const PlanePoint& point) const {
+  const int piece = find(point).piece;
+  const Piece& line = pieces_[piece];
+  if (line.arc) return false;
+  const PlanePoint arm = point - line.start, chord = line.end - line.start;
+  const double along = dot(arm, line.direction);
+  return (std::isinf(line.from) && along < 0.0) || (std::isinf(line.to) && along > dot(chord, line.direction));
+}
+
 Profile::Feature Profile::find(const PlanePoint& point) const {
   Feature nearest;
   double least = std::numeric_limits<double>::infinity();

@@ -38,6 +38,9 @@ class Profile {
   /// True only if the point lies above everything: told without a search for open roads whose two ends are parallel.
   bool surely_outside(const PlanePoint& point) const { return point[0] * up_[0] + point[1] * up_[1] > top_; }
 
+  /// Whether the nearest point lies where an end of the chain was continued.
+  bool past_end(const PlanePoint& point) const;
+
   template <class T>
   ProfilePoint<T> nearest(const std::array<T, 2>& point) const {
     const Feature feature = find({value_of(point[0]), value_of(point[1])});

@@ -31,6 +31,9 @@ Matrix3<T> constant(const Matrix3<double>& matrix) {
   return result;
 }
 
+/// Stiffness of a stiff spring over that of the pair: under a pressure p the penetration is then p h / (10 M).
+constexpr double stiff_factor = 20.0;
+
 InputError refused(const Model& model, const ContactPair& pair, const std::string& what) {
   return InputError(fmt::format("{}: error: *CONTACT PAIR: {}", model.where(pair.location), what));
 }
@@ -111,6 +114,7 @@ void RigidContact::add_forces(const double* position, const RigidBodyState& mast
                               double* force) const {
   const MasterFrame frame(master);
   for (std::int32_t i = 0; i < size(); ++i) {
+    if (points[i].stiff_spring > 0.0) continue;
     const double* x = position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
     const auto contact = contact_force(surface_, parameters(i), frame.inverse * frame.arm(x), points[i]);
     if (!contact.closed) continue;
@@ -120,6 +124,114 @@ void RigidContact::add_forces(const double* position, const RigidBodyState& mast
   }
 }
 
+void RigidContact::choose_springs(const double* position, const RigidBodyState& master, const std::vector<bool>& stiff,
+                                  std::vector<ContactPoint>& points) const {
+  const MasterFrame frame(master);
+  for (std::int32_t i = 0; i < size(); ++i) {
+    auto& point = points[i];
+    const double spring = stiff[i] ? stiff_factor * stiffness_[i] : 0.0;
+    if (spring == point.stiff_spring) continue;
+    const double old_stiffness = point.stiff_spring > 0.0 ? point.stiff_spring : stiffness_[i];
+    const double new_stiffness = spring > 0.0 ? spring : stiffness_[i];
+    const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
+    const double gap = surface_.nearest(frame.inverse * arm).distance;
+    // Negative where a soft spring holds the node below the surface: the stiff one then begins down there.
+    if (point.closed > 0.0) point.multiplier = std::max(0.0, point.multiplier - old_stiffness * gap) + new_stiffness * gap;
+    point.stiff_spring = spring;
+  }
+}
+
+void RigidContact::add_stiff_forces(const StiffCycle& cycle, const RigidBodyState& master,
+                                    std::span<const SlaveFreedom> freedom, std::vector<ContactPoint>& points,
+                                    double* force) const {
+  for (std::int32_t i = 0; i < size(); ++i)
+    if (points[i].stiff_spring > 0.0) add_stiff_force(i, cycle, master, freedom[i], points[i], force);
+}
+
+void RigidContact::add_stiff_force(std::int32_t point, const StiffCycle& cycle, const RigidBodyState& master,
+                                   const SlaveFreedom& freedom, ContactPoint& state, double* force) const {
+  const MasterFrame frame(master);
+  const auto at = 4 * static_cast<std::ptrdiff_t>(nodes_[point]);
+  const double *x = cycle.position + at, *v = cycle.velocity + at;
+  double* sum = force + at;
+  const auto arm = frame.arm(x);
+  const auto place = frame.inverse * arm;
+  const auto below = Vector3<double>{master.velocity} + cross(Vector3<double>{master.angular_velocity}, arm);
+  const double average = 0.5 * (cycle.previous + cycle.next);
+  const Vector3<double> now{v[0], v[1], v[2]};
+  Vector3<double> then = now + (average * freedom.inverse_mass) * Vector3<double>{sum[0], sum[1], sum[2]};
+  for (int i = 0; i < freedom.held; ++i) {
+    const Vector3<double> direction{freedom.direction[i]};
+    then = then + (freedom.velocity[i] - dot(then, direction)) * direction;
+  }
+  const auto on_the_way = 0.5 * cycle.next * (then - below);
+  if (state.closed == 0.0 && surface_.surely_outside(place) &&
+      surface_.surely_outside(frame.inverse * (arm + on_the_way))) {
+    open(state, place);
+    return;
+  }
+  const auto nearest = surface_.nearest(place);
+  const auto normal = frame.rotation * nearest.normal;
+  auto free = normal;
+  for (int i = 0; i < freedom.held; ++i) {
+    const Vector3<double> direction{freedom.direction[i]};
+    free = free - dot(free, direction) * direction;
+  }
+  const double before = nearest.distance - 0.5 * cycle.previous * dot(now - below, normal);
+  const double after = nearest.distance + dot(on_the_way, normal);
+  const double yielding = 0.5 * cycle.next * average * freedom.inverse_mass * dot(free, normal);
+  ContactForce<double> contact;
+  contact.pressure = stiff_normal_force(state.multiplier, state.stiff_spring, before, after, yielding);
+  state.stiff_force = contact.pressure;
+  if (!(contact.pressure > 0.0)) {
+    open(state, place);
+    return;
+  }
+  contact.normal = contact.pressure * nearest.normal;
+  if (friction_ > 0.0) add_friction(parameters(point), place, nearest, state, contact);
+  state.closed = 1.0;
+  if (nearest.distance > 0.0) state.multiplier = std::max(0.0, state.multiplier - state.stiff_spring * nearest.distance);
+  const auto global = frame.rotation * (contact.normal + contact.friction);
+  for (int k = 0; k < 3; ++k) sum[k] += rounded(global[k], sum[3]);
+}
+
+ContactForce<double> RigidContact::acting_force(std::int32_t point, const Vector3<double>& place,
+                                                const ContactPoint& state) const {
+  ContactPoint scratch = state;
+  if (state.stiff_spring == 0.0) return contact_force(surface_, parameters(point), place, scratch);
+  ContactForce<double> contact;
+  contact.closed = state.closed > 0.0;
+  if (!contact.closed) return contact;
+  const auto nearest = surface_.nearest(place);
+  contact.pressure = state.stiff_force;
+  contact.normal = contact.pressure * nearest.normal;
+  if (friction_ > 0.0) add_friction(parameters(point), place, nearest, scratch, contact);
+  return contact;
+}
+
+RigidContact::Deepest RigidContact::deepest(const double* position, const RigidBodyState& master,
+                                            const std::vector<ContactPoint>& points, Which which) const {
+  const MasterFrame frame(master);
+  Deepest deepest;
+  for (std::int32_t i = 0; i < size(); ++i) {
+    const auto place = frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
+    if (surface_.surely_outside(place) || (which == Which::open && points[i].closed > 0.0)) continue;
+    const double depth = -surface_.nearest(place).distance;
+    if (depth > deepest.depth) deepest = {depth, nodes_[i]};
+  }
+  return deepest;
+}
+
+bool RigidContact::past_end(const double* position, const RigidBodyState& master,
+                            const std::vector<ContactPoint>& points) const {
+  const MasterFrame frame(master);
+  for (std::int32_t i = 0; i < size(); ++i)
+    if (points[i].closed > 0.0 &&
+        surface_.past_end(frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]))))
+      return true;
+  return false;
+}
+
 void RigidContact::add_master_resultant(const double* position, const RigidBodyState& master,
                                         const std::vector<ContactPoint>& points,
                                         std::span<ExactSum, 6> force_and_moment) const {
@@ -127,8 +239,7 @@ void RigidContact::add_master_resultant(const double* position, const RigidBodyS
   for (std::int32_t i = 0; i < size(); ++i) {
     if (!owned_[i]) continue;
     const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
-    ContactPoint point = points[i];
-    const auto contact = contact_force(surface_, parameters(i), frame.inverse * arm, point);
+    const auto contact = acting_force(i, frame.inverse * arm, points[i]);
     if (!contact.closed) continue;
     const auto on_slave = frame.rotation * (contact.normal + contact.friction);
     const auto moment = cross(arm, on_slave);
@@ -182,9 +293,8 @@ RigidContact::Output RigidContact::output(std::int32_t point, const double* posi
                                           const ContactPoint& state) const {
   const MasterFrame frame(master);
   const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[point]));
-  ContactPoint scratch = state;
   const auto place = frame.inverse * arm;
-  const auto contact = contact_force(surface_, parameters(point), place, scratch);
+  const auto contact = acting_force(point, place, state);
   Output output;
   output.gap = surface_.nearest(place).distance;
   output.slip = state.slip;
@@ -194,7 +304,10 @@ RigidContact::Output RigidContact::output(std::int32_t point, const double* posi
   output.shear = std::sqrt(square) / area_[point];
   output.normal_force = (frame.rotation * contact.normal).component;
   output.friction_force = (frame.rotation * contact.friction).component;
-  output.spring_energy = 0.5 * contact.pressure * contact.pressure / stiffness_[point];
+  // A multiplier holds without a stretch: nothing is stored where the gap is zero.
+  const double spring = state.stiff_spring > 0.0 ? state.stiff_spring : stiffness_[point];
+  const double stretched = std::max(0.0, state.multiplier - spring * output.gap);
+  output.spring_energy = 0.5 * (stretched * stretched - state.multiplier * state.multiplier) / spring;
   if (contact.tangential_stiffness > 0.0) output.spring_energy += 0.5 * square / contact.tangential_stiffness;
   return output;
 }
@@ -235,13 +348,9 @@ ContactResultant RigidContact::resultant(const Communicator& communicator, const
   return result;
 }
 
-double RigidContact::largest_spring_frequency_squared(std::span<const double> nodal_mass) const {
-  double largest = 0.0;
-  for (std::int32_t i = 0; i < size(); ++i) {
-    const double mass = nodal_mass[nodes_[i]];
-    if (mass > 0.0) largest = std::max(largest, stiffness_[i] / mass);
-  }
-  return largest;
+void RigidContact::add_spring_stiffness(const std::vector<bool>& stiff, std::span<double> sum) const {
+  for (std::int32_t i = 0; i < size(); ++i)
+    if (!stiff[i] || friction_ > 0.0) sum[nodes_[i]] += stiffness_[i];
 }
 
 }  // namespace balocco

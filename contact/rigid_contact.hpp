@@ -30,6 +30,25 @@ struct ContactTangent {
   std::array<double, 3 * 9> derivative{};  // d force / d (node position 3, master position 3, master spin 3), row-major
 };
 
+/// How a slave node answers to a force in an explicit cycle: as a free mass, but for the directions in which its velocity over
+/// the next increment is prescribed.
+struct SlaveFreedom {
+  double inverse_mass = 0.0;  // 0: it moves as something else wants
+  int held = 0;
+  std::array<Point, 3> direction{};
+  std::array<double, 3> velocity{};
+
+  /// Such a node can bear a spring that an explicit cycle could not follow.
+  bool yields() const { return inverse_mass > 0.0 && held < 3; }
+};
+
+/// What the stiff springs of a pair see of a cycle: nodal arrays (4 a node) and the increments before and behind the instant.
+struct StiffCycle {
+  const double* position = nullptr;
+  const double* velocity = nullptr;  // over the increment before
+  double previous = 0.0, next = 0.0;
+};
+
 class RigidContact {
  public:
   /// Nodes of the slave surface on this rank, each with its tributary area and penalty stiffness, computed from the
@@ -54,6 +73,27 @@ class RigidContact {
   /// finish_sum.
   void add_forces(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points,
                   double* force) const;
+
+  /// Gives points that `stiff` names the stiff spring, the others that of the pair; the force of a closed point stays.
+  void choose_springs(const double* position, const RigidBodyState& master, const std::vector<bool>& stiff,
+                      std::vector<ContactPoint>& points) const;
+
+  /// Explicit: as add_forces, for the points with stiff springs, which add_forces leaves out. `force` must be whole (all ranks
+  /// and sources), `freedom` has an entry a point. A multiplier from statics ends with the contact: it shrinks while a closed
+  /// point stands above the surface.
+  void add_stiff_forces(const StiffCycle& cycle, const RigidBodyState& master, std::span<const SlaveFreedom> freedom,
+                        std::vector<ContactPoint>& points, double* force) const;
+
+  /// Deepest point below the surface on this rank, of those that are open or of all.
+  struct Deepest {
+    double depth = 0.0;
+    std::int32_t node = -1;  // local
+  };
+  enum class Which { open, all };
+  Deepest deepest(const double* position, const RigidBodyState& master, const std::vector<ContactPoint>& points,
+                  Which which) const;
+  /// Whether a closed point on this rank stands where the master's profile had ended.
+  bool past_end(const double* position, const RigidBodyState& master, const std::vector<ContactPoint>& points) const;
 
   /// Sum of the forces on the master body and of their moments about its reference node, over the slave nodes owned by
   /// this rank, exact in any order. For masters that are free to move.
@@ -85,12 +125,16 @@ class RigidContact {
   ContactResultant resultant(const Communicator& communicator, const double* position, const RigidBodyState& master,
                              const std::vector<ContactPoint>& points) const;
 
-  /// Greatest stiffness / mass of a slave node on this rank: added to the square of the elements' highest frequency it
-  /// bounds that of the assembled system. Nodes without mass are left out.
-  double largest_spring_frequency_squared(std::span<const double> nodal_mass) const;
+  /// Adds the stiffness of the springs that an explicit cycle must follow to `sum` (one a node): of points that `stiff` names
+  /// that of friction alone.
+  void add_spring_stiffness(const std::vector<bool>& stiff, std::span<double> sum) const;
 
  private:
   PenaltyParameters parameters(std::int32_t point) const { return {stiffness_[point], friction_, elastic_slip_}; }
+  /// Force of a point whose history `state` is up to date.
+  ContactForce<double> acting_force(std::int32_t point, const Vector3<double>& place, const ContactPoint& state) const;
+  void add_stiff_force(std::int32_t point, const StiffCycle& cycle, const RigidBodyState& master,
+                       const SlaveFreedom& freedom, ContactPoint& state, double* force) const;
 
   std::int32_t master_body_ = -1;
   MasterSurface surface_;

@@ -30,6 +30,13 @@ class RigidSurface {
     return profile_.surely_outside({revolved_ ? std::sqrt(first * first + third * third) : first, along(1, arm)});
   }
 
+  /// Whether the profile had ended where it is nearest to `place`, and only its continuation is there.
+  bool past_end(const Vector3<double>& place) const {
+    const Vector3<double> arm{place[0] - origin_[0], place[1] - origin_[1], place[2] - origin_[2]};
+    const double first = along(0, arm), third = along(2, arm);
+    return profile_.past_end({revolved_ ? std::sqrt(first * first + third * third) : first, along(1, arm)});
+  }
+
   /// `place` in the body frame. T: double or Dual.
   template <class T>
   SurfacePoint<T> nearest(const Vector3<T>& place) const {

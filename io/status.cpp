@@ -88,9 +88,9 @@ void Status::start_step(std::int32_t step, const State& state) {
     line(status_, fmt::format("{:>6} {:>6} {:>13} {:>13} {:>13} {:>11} {:>13} {:>13} {:>10}", "INC", "ITERS", "STEP TIME",
                               "TOTAL TIME", "TIME INC", "RESIDUAL", "ALLWK", "ALLIE", "WALL S"));
   } else {
-    line(status_, fmt::format("{:>9} {:>13} {:>13} {:>12} {:>10} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>9} {:>9} {:>9} {:>10}",
+    line(status_, fmt::format("{:>9} {:>13} {:>13} {:>12} {:>10} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>9} {:>11} {:>9} {:>9} {:>10}",
                               "INC", "STEP TIME", "TOTAL TIME", "TIME INC", "ELEMENT", "ALLKE", "ALLIE", "ALLAE", "ALLCW", "ALLWK",
-                              "ETOTAL", "ERROR %", "WALL S", "LEFT S", "ELEM/S"));
+                              "ETOTAL", "ERROR %", "PENETRATION", "WALL S", "LEFT S", "ELEM/S"));
   }
 }
 
@@ -117,11 +117,11 @@ void Status::explicit_line(const Progress& progress, const State& state, const E
   if (!root_) return;
   const Outlook view = outlook(progress);
   line(status_, fmt::format("{:>9} {:>13.6g} {:>13.6g} {:>12.5g} {:>10} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} {:>12.5g} "
-                            "{:>9.4f} {:>9.1f} {:>9.0f} {:>10.4g}",
+                            "{:>9.4f} {:>11.4g} {:>9.1f} {:>9.0f} {:>10.4g}",
                             progress.increment, progress.step_time, progress.total_time, progress.time_increment,
                             progress.critical_element, energies.kinetic, energies.internal, energies.hourglass, energies.contact,
-                            energies.work, energies.total, energy_error(state, energies), seconds(), view.remaining,
-                            view.elements_per_second));
+                            energies.work, energies.total, energy_error(state, energies), progress.largest_penetration, seconds(),
+                            view.remaining, view.elements_per_second));
 }
 
 void Status::show(const Progress& progress, bool now) {

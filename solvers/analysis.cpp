@@ -5,6 +5,7 @@
 
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
+#include "explicit_scale.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -74,6 +75,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
   for (const auto& group : element_groups) current.element_history.push_back(group->initial_history());
   for (const auto& pair : contacts) current.contact.emplace_back(pair.size());
   current.rigid_bodies = initial_rigid_bodies(model);
+  undeformed_increment = balocco::undeformed_increment(model, communicator, domain, element_groups);
   body_reaction.resize(model.rigid_bodies.size());
   body_angular_acceleration.resize(model.rigid_bodies.size());
   index_rigid_nodes();
@@ -188,8 +190,11 @@ void Analysis::start_step(const Step& step) {
   apply_attachments(step);
   for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
     const bool active = std::ranges::count(step.active_contact_pairs, static_cast<std::int32_t>(pair)) > 0;
-    contacts[pair].start_step(current.position.data(), current.rigid_bodies[contacts[pair].master_body()], active,
-                              current.contact[pair]);
+    const auto& contact = contacts[pair];
+    const auto& master = current.rigid_bodies[contact.master_body()];
+    contact.start_step(current.position.data(), master, active, current.contact[pair]);
+    const std::vector<bool> none(static_cast<std::size_t>(contact.size()), false);
+    contact.choose_springs(current.position.data(), master, none, current.contact[pair]);
   }
 }
 

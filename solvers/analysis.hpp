@@ -40,6 +40,7 @@ class Analysis : public ResultSource {
     Matrix3<double> tensor{};
   };
   std::vector<RotaryTensor> rotary_tensors;
+  double undeformed_increment = 1e300;             // smallest stable increment of the undeformed elements, over all ranks
   NodalDirections directions;
   State current;
 
@@ -55,7 +56,8 @@ class Analysis : public ResultSource {
   /// Nodal masses of an element set (-1: all elements) on the nodes that this rank owns, zero elsewhere: what gravity acts on.
   /// Collective when a set is first asked for.
   const std::vector<double>& partial_mass(std::int32_t element_set) const;
-  /// Rebuilds carrier() from the state: after attachments, and after a checkpoint was read.
+  /// Rebuilds carrier() and tells the groups which elements act, from the state: after attachments, and after a checkpoint was
+  /// read.
   void index_rigid_nodes();
   /// Puts the carried nodes where their bodies are.
   void place_rigid_nodes(std::vector<double>& position) const;
@@ -87,7 +89,7 @@ class Analysis : public ResultSource {
   void sum_masses();
   EnergyBalance sum_energies() const;
   void apply_attachments(const Step& step);
-  double kinetic_energy_of_rotary_inertia() const;
+  void add_kinetic_energy_of_rotary_inertia(ExactSum& sum) const;
   void sum_rotary_inertia();
 
   std::vector<std::int32_t> carrier_, reference_of_, turning_body_;

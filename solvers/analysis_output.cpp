@@ -197,10 +197,9 @@ void Analysis::nodal(std::string_view variable, std::span<double> values) const 
   nodal_variables.at(variable).evaluate(*this, values);
 }
 
-double Analysis::kinetic_energy_of_rotary_inertia() const {
+void Analysis::add_kinetic_energy_of_rotary_inertia(ExactSum& sum) const {
   std::vector<double> spin(3 * domain.size());
   angular_velocity(*this, spin);
-  double energy = 0.0;
   for (const auto& elements : model.elements) {
     if (elements.type->section != Section::Kind::rotary_inertia) continue;
     for (std::int32_t row = 0; row < elements.size(); ++row) {
@@ -212,10 +211,9 @@ double Analysis::kinetic_energy_of_rotary_inertia() const {
       const auto& inertia = model.sections[elements.section[row]].inertia;
       const Matrix3<double> tensor{{inertia[0], inertia[3], inertia[4], inertia[3], inertia[1], inertia[5], inertia[4],
                                     inertia[5], inertia[2]}};
-      energy += 0.5 * dot(turned, tensor * turned);
+      sum.add(0.5 * dot(turned, tensor * turned));
     }
   }
-  return energy;
 }
 
 EnergyBalance Analysis::energies() const {
@@ -252,7 +250,7 @@ EnergyBalance Analysis::sum_energies() const {
     sums[work].add(-work_ahead[node].external);
     sums[viscous].add(-work_ahead[node].damping);
   }
-  sums[kinetic].add(kinetic_energy_of_rotary_inertia());
+  add_kinetic_energy_of_rotary_inertia(sums[kinetic]);
   for (const auto& given : rotary_tensors) {
     if (!domain.owned[given.node] || reference_of(given.node) >= 0) continue;
     const double* const q = &current.orientation[4 * given.node];

@@ -120,6 +120,27 @@ void RigidDynamics::refuse_massless(const Analysis& analysis) const {
   }
 }
 
+RigidDynamics::Yielding RigidDynamics::yielding(std::size_t index) const {
+  const auto& body = bodies_[index];
+  const auto free = [&](int first) {
+    return std::any_of(&body.condition[first], &body.condition[first] + 3, [](const auto* c) { return c == nullptr; });
+  };
+  Yielding yielding;
+  if (free(0)) yielding.inverse_mass = 1.0 / body.mass;
+  if (free(3)) {
+    // About the centre of mass, the smallest inertia there is about any point.
+    const Eigen::Vector3d c =
+        Eigen::Vector3d(body.first_moment[0], body.first_moment[1], body.first_moment[2]) / std::max(body.mass, 1e-300);
+    Eigen::Matrix3d inertia;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        inertia(i, j) = body.inertia(i, j) - body.mass * ((i == j ? c.squaredNorm() : 0.0) - c[i] * c[j]);
+    yielding.inverse_inertia =
+        1.0 / Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues()(0);
+  }
+  return yielding;
+}
+
 Matrix6 RigidDynamics::mass_matrix(const Body& body, const Matrix3<double>& rotation) const {
   const auto c = body.axes * (rotation * body.first_moment);
   const auto inertia = turned(body.axes, turned(rotation, body.inertia));

@@ -26,6 +26,14 @@ class RigidDynamics {
   /// Collective. @throws InputError where a free degree of freedom has no mass or inertia.
   RigidDynamics(const Analysis& analysis, const Step& step);
 
+  /// How much a body gives way where it is free: inverse mass, and inverse of its smallest principal moment of inertia about
+  /// the reference node; zero where the motion is prescribed.
+  struct Yielding {
+    double inverse_mass = 0.0, inverse_inertia = 0.0;
+    bool yields() const { return inverse_mass > 0.0 || inverse_inertia > 0.0; }
+  };
+  Yielding yielding(std::size_t body) const;
+
   bool empty() const { return bodies_.empty(); }
   void refuse_jumps(const Analysis& analysis) const;
   /// Prescribed components of the motion at the start of the first dynamic step, then the velocities of all carried

@@ -17,7 +17,7 @@ void compute_forces(ExplicitStep& cycle) {
   cycle.add_interface_elements();
   cycle.begin_halo();
   cycle.add_interior_elements();
-  cycle.add_contact();
+  cycle.add_soft_contact();
   cycle.finish_halo();
 }
 
@@ -25,6 +25,7 @@ void compute_forces(ExplicitStep& cycle) {
 void start(ExplicitStep& cycle) {
   cycle.prepare_start();
   compute_forces(cycle);
+  cycle.add_stiff_contact();
   cycle.sum_body_forces();
   cycle.log_balance();
   cycle.add_damping();
@@ -46,6 +47,7 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
     compute_forces(cycle);
     cycle.add_damping();
     cycle.choose_increment();
+    cycle.add_stiff_contact();
     cycle.sum_body_forces();
     cycle.update_velocities();
     if (!cycle.observe()) return Outcome::stopped;

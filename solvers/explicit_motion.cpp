@@ -14,9 +14,9 @@ namespace {
 
 using Kind = BoundaryCondition::Kind;
 
-/// Displacements of earlier steps and displacements without a course in time hold the node where it is.
-bool holds(const BoundaryCondition& condition) {
-  return condition.fixed || condition.propagated || condition.amplitude < 0;
+/// Displacements that have arrived and displacements without a course in time hold the node where it is.
+bool holds(const Model& model, const BoundaryCondition& condition) {
+  return condition.amplitude < 0 || has_arrived(model, condition);
 }
 
 double component(const double* vector, const Point& direction) {
@@ -41,7 +41,7 @@ double prescribed_velocity(const Model& model, const Step& step, const BoundaryC
     case Kind::acceleration:
       return motion.velocity + instant.average() * value_after(0.0);
     default:
-      if (holds(condition)) return 0.0;
+      if (holds(model, condition)) return 0.0;
       if (instant.next == 0.0) return motion.velocity;  // the step is over: no course to follow
       return (value_after(instant.next) - motion.displacement) / instant.next;
   }
@@ -50,7 +50,7 @@ double prescribed_velocity(const Model& model, const Step& step, const BoundaryC
 double prescribed_initial_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
                                    const Instant& instant, const MotionComponent& motion) {
   const Instant now{instant.step_time, instant.total_time, 0.0, 0.0};
-  if (condition.kind == Kind::displacement && holds(condition)) return 0.0;
+  if (condition.kind == Kind::displacement && holds(model, condition)) return 0.0;
   return prescribed_velocity(model, step, condition, now, motion);
 }
 
@@ -87,6 +87,7 @@ NodalConstraints::NodalConstraints(const Analysis& analysis, const Step& step, N
                             .direction = analysis.directions.direction(condition.node, condition.dof % 3),
                             .condition = &condition});
   }
+  std::ranges::stable_sort(constraints_, {}, &Constraint::node);
 }
 
 std::vector<double>& NodalConstraints::velocity(Analysis& analysis) const {
@@ -120,12 +121,21 @@ void NodalConstraints::set_initial_velocities(Analysis& analysis, const Step& st
   }
 }
 
-void NodalConstraints::find_reactions(const Analysis& analysis, const Step& step, const Instant& instant,
-                                      const double* force) {
+std::span<const NodalConstraints::Constraint> NodalConstraints::of_node(std::int32_t node) const {
+  const auto range = std::ranges::equal_range(constraints_, node, {}, &Constraint::node);
+  return {range.begin(), range.end()};
+}
+
+void NodalConstraints::find_velocities(const Analysis& analysis, const Step& step, const Instant& instant) {
   for (auto& constraint : constraints_) {
     const auto now = motion(analysis, constraint);
     constraint.old_velocity = now.velocity;
     constraint.new_velocity = prescribed_velocity(analysis.model, step, *constraint.condition, instant, now);
+  }
+}
+
+void NodalConstraints::find_reactions(const Analysis& analysis, const Instant& instant, const double* force) {
+  for (auto& constraint : constraints_) {
     const double acceleration = (constraint.new_velocity - constraint.old_velocity) / instant.average();
     constraint.reaction = inertia(analysis)[constraint.node] * acceleration -
                           component(force + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "explicit_time.hpp"
@@ -38,8 +39,19 @@ class NodalConstraints {
   void refuse_jumps(const Analysis& analysis) const;
   void set_initial_velocities(Analysis& analysis, const Step& step, const Instant& instant) const;
 
-  /// Before velocities change: what they shall become, and the forces that constraints exert for it.
-  void find_reactions(const Analysis& analysis, const Step& step, const Instant& instant, const double* force);
+  struct Constraint {
+    std::int32_t node = -1;  // local
+    Point direction{};
+    const BoundaryCondition* condition = nullptr;
+    double old_velocity = 0.0, new_velocity = 0.0, reaction = 0.0;
+  };
+  /// Those of a local node.
+  std::span<const Constraint> of_node(std::int32_t node) const;
+
+  /// Before velocities change: what they are and shall become;
+  void find_velocities(const Analysis& analysis, const Step& step, const Instant& instant);
+  /// then the forces that constraints exert for it.
+  void find_reactions(const Analysis& analysis, const Instant& instant, const double* force);
   /// After velocities changed: sets the prescribed components and adds the work of the reactions.
   void enforce(Analysis& analysis, const Instant& instant) const;
 
@@ -52,18 +64,12 @@ class NodalConstraints {
                              const std::function<double(std::size_t)>& factor) const;
 
  private:
-  struct Constraint {
-    std::int32_t node = -1;  // local
-    Point direction{};
-    const BoundaryCondition* condition = nullptr;
-    double old_velocity = 0.0, new_velocity = 0.0, reaction = 0.0;
-  };
   MotionComponent motion(const Analysis& analysis, const Constraint& constraint) const;
   std::vector<double>& velocity(Analysis& analysis) const;
   const std::vector<double>& inertia(const Analysis& analysis) const;
 
   NodalFreedom freedom_;
-  std::vector<Constraint> constraints_;
+  std::vector<Constraint> constraints_;  // sorted by node
 };
 
 }  // namespace balocco

@@ -10,10 +10,6 @@
 
 namespace balocco {
 
-namespace {
-constexpr std::int64_t increments_between_checks = 100;  // of the energy balance: 1 % of a run at most
-}
-
 void ExplicitStep::fill_output() {
   timers.measure(Phase::output, [&] {
     auto& acceleration = analysis_.acceleration;
@@ -43,17 +39,19 @@ Progress ExplicitStep::progress() const {
   progress.total_time = state.total_time;
   progress.time_increment = last_increment_;
   progress.critical_element = governing.payload;
+  progress.largest_penetration = contact_.largest_penetration(analysis_);
   progress.step_finished = finished();
   return progress;
 }
 
 bool ExplicitStep::observe() {
-  const bool check = analysis_.current.increment % increments_between_checks == 0 || finished();
-  if (!attention_ && !check) return true;
+  if (!attention_ && !finished()) return true;
   report_failure();
   fill_output();
-  if (check) check_energy_balance();
-  if (!attention_ && !finished()) return true;
+  if (analysis_.current.increment % regular_increments == 0 || finished()) {
+    check_energy_balance();
+    contact_.report_past_end(analysis_, observer_);
+  }
   bool go_on = true;
   timers.measure(Phase::output, [&] { go_on = observer_.advanced(analysis_, progress()); });
   return go_on;

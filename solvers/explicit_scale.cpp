@@ -46,29 +46,6 @@ std::vector<double> shortest_edges(const Model& model, const Domain& domain) {
   return edge;
 }
 
-/// Stable increment of the undeformed elements, over all ranks.
-double reference_increment(const Analysis& analysis) {
-  const auto& domain = analysis.domain;
-  std::vector<double> position(4 * static_cast<std::size_t>(domain.size() + 1), 0.0), velocity(position.size(), 0.0),
-      force(position.size(), 0.0), moment(position.size(), 0.0),
-      orientation(4 * static_cast<std::size_t>(domain.turning), 0.0), spin(orientation.size(), 0.0);
-  for (std::size_t i = 0; i < orientation.size(); i += 4) orientation[i] = 1.0;
-  for (std::int32_t node = 0; node < domain.size(); ++node)
-    std::copy_n(analysis.model.nodes.coordinates[domain.node_row[node]].data(), 3, &position[4 * node]);
-  const ExplicitCycle cycle{.motion = {.position = position.data(),
-                                       .velocity = velocity.data(),
-                                       .orientation = orientation.data(),
-                                       .angular_velocity = spin.data()},
-                            .forces = {.force = force.data(), .moment = moment.data()}};
-  StableIncrement smallest;
-  for (const auto& group : analysis.element_groups) {
-    auto history = group->initial_history();
-    for (const auto portion : {Portion::interface, Portion::interior})
-      smallest.merge(group->add_forces(portion, cycle, history));
-  }
-  return analysis.communicator.minimum(smallest.increment);
-}
-
 /// Nodal masses of elements alone: point masses load no element by themselves.
 std::vector<double> element_masses(const Analysis& analysis) {
   auto mass = analysis.nodal_mass;
@@ -131,23 +108,45 @@ void add_restraints(const Analysis& analysis, const Step& step, const std::vecto
 
 }  // namespace
 
+double undeformed_increment(const Model& model, const Communicator& communicator, const Domain& domain,
+                            std::span<const std::unique_ptr<ElementGroup>> groups) {
+  std::vector<double> position(4 * static_cast<std::size_t>(domain.size() + 1), 0.0), velocity(position.size(), 0.0),
+      force(position.size(), 0.0), moment(position.size(), 0.0),
+      orientation(4 * static_cast<std::size_t>(domain.turning), 0.0), spin(orientation.size(), 0.0);
+  for (std::size_t i = 0; i < orientation.size(); i += 4) orientation[i] = 1.0;
+  for (std::int32_t node = 0; node < domain.size(); ++node)
+    std::copy_n(model.nodes.coordinates[domain.node_row[node]].data(), 3, &position[4 * node]);
+  const ExplicitCycle cycle{.motion = {.position = position.data(),
+                                       .velocity = velocity.data(),
+                                       .orientation = orientation.data(),
+                                       .angular_velocity = spin.data()},
+                            .forces = {.force = force.data(), .moment = moment.data()}};
+  StableIncrement smallest;
+  for (const auto& group : groups) {
+    auto history = group->initial_history();
+    for (const auto portion : {Portion::interface, Portion::interior})
+      smallest.merge(group->add_forces(portion, cycle, history));
+  }
+  return communicator.minimum(smallest.increment);
+}
+
 ForceScale force_scale(const Analysis& analysis, const Step& step, const std::vector<Restraint>& restraints,
                        const RestraintBound& bound) {
+  const double increment = analysis.undeformed_increment;
   ForceScale scale;
-  scale.reference_increment = reference_increment(analysis);
   const auto edge = shortest_edges(analysis.model, analysis.domain);
   auto largest = element_masses(analysis);
   for (std::size_t node = 0; node < largest.size(); ++node)
-    largest[node] *= edge[node] / (scale.reference_increment * scale.reference_increment);
+    largest[node] *= edge[node] / (increment * increment);
   // A rotation of about one strains the element: moments are rotary inertia / increment^2, or that force at the edge's end.
   std::vector<double> moment(analysis.rotary_inertia);
   scale.lever.assign(edge.begin(), edge.begin() + analysis.domain.turning);
   for (std::size_t node = 0; node < moment.size(); ++node)
-    moment[node] = std::max(moment[node] / (scale.reference_increment * scale.reference_increment), largest[node] * edge[node]);
+    moment[node] = std::max(moment[node] / (increment * increment), largest[node] * edge[node]);
   add_loads(analysis, step, largest, moment);
   if (bound.omega_square > 0.0 || bound.rate > 0.0)
     add_restraints(analysis, step, restraints,
-                   std::min(scale.reference_increment, neutral_increment(bound.omega_square, bound.rate)), largest);
+                   std::min(increment, neutral_increment(bound.omega_square, bound.rate)), largest);
   for (const auto pair : step.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
     for (std::int32_t point = 0; point < contact.size(); ++point)

@@ -1,14 +1,19 @@
 // The rounding constants of nodal forces: what makes sums exact, and at the same time the mark of a run that blew up.
 #pragma once
 
+#include <memory>
+#include <span>
 #include <vector>
 
 #include "explicit_restraints.hpp"
 
 namespace balocco {
 
+/// Smallest stable increment of the undeformed elements, resting ones too, over all ranks. Collective.
+double undeformed_increment(const Model& model, const Communicator& communicator, const Domain& domain,
+                            std::span<const std::unique_ptr<ElementGroup>> groups);
+
 struct ForceScale {
-  double reference_increment = 1e300;     // smallest stable increment of the undeformed elements, over all ranks
   std::vector<double> rounding_constant;  // per local node and for the scratch node, the same bits on every copy
   std::vector<double> moment_constant;    // likewise for moments: per node that turns
   std::vector<double> lever;              // per node that turns: the shortest edge beside it, which turns moments into forces

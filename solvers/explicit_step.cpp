@@ -32,6 +32,16 @@ T make_together(const Analysis& analysis, Arguments... arguments) {
   return std::move(*made);
 }
 
+/// Zero for nodes that rigid bodies move and for those without mass.
+std::vector<double> inverse_masses(const Analysis& analysis) {
+  std::vector<double> inverse(static_cast<std::size_t>(analysis.domain.size()), 0.0);
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
+    const bool moved_by_body = analysis.carrier(node) >= 0 || analysis.reference_of(node) >= 0;
+    if (!moved_by_body && analysis.nodal_mass[node] > 0.0) inverse[node] = 1.0 / analysis.nodal_mass[node];
+  }
+  return inverse;
+}
+
 /// Attachments come first of all: what follows depends on who carries which node.
 const Step& started(Analysis& analysis, const Step& step) {
   if (analysis.current.increment == 0) analysis.start_step(step);
@@ -50,10 +60,12 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       restraints_(nodal_restraints(analysis)),
       restraint_bound_(restraint_bound(analysis, restraints_, bodies_)),
       scale_(force_scale(analysis, step, restraints_, restraint_bound_)),
-      control_(analysis, step, restraint_bound_),
+      control_(step),
       constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::translation)),
       rotation_constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::rotation)),
       gyroscopic_(make_together<GyroscopicNodes>(analysis, std::ref(step))),
+      inverse_mass_(inverse_masses(analysis)),
+      contact_(analysis, step, constraints_, bodies_, inverse_mass_),
       external_halo_(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::external),
       moments_(analysis.model.rigid_bodies.size()) {
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
@@ -64,7 +76,11 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
   for (std::size_t node = 0; node < scale_.moment_constant.size(); ++node)
     moment_[4 * node + 3] = scale_.moment_constant[node];
   external_moment_ = moment_;
-  find_inverse_inertia();
+  for (std::int32_t node = 0; node < analysis.domain.turning; ++node) {
+    const bool turned_otherwise = analysis.turning_body(node) >= 0 || gyroscopic_.contains(node);
+    inverse_rotary_inertia_.push_back(
+        turned_otherwise || !(analysis.rotary_inertia[node] > 0.0) ? 0.0 : 1.0 / analysis.rotary_inertia[node]);
+  }
   const bool damped =
       std::any_of(analysis.nodal_damping.begin(), analysis.nodal_damping.end(), [](double c) { return c > 0.0; });
   if (analysis.communicator.any(damped)) {
@@ -76,18 +92,6 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     refuse_massless_restraints(analysis, step);
   });
   find_loaded_nodes();
-}
-
-void ExplicitStep::find_inverse_inertia() {
-  const auto inverse = [](double inertia, bool moved_otherwise) {
-    return moved_otherwise || !(inertia > 0.0) ? 0.0 : 1.0 / inertia;
-  };
-  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node)
-    inverse_mass_.push_back(
-        inverse(analysis_.nodal_mass[node], analysis_.carrier(node) >= 0 || analysis_.reference_of(node) >= 0));
-  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node)
-    inverse_rotary_inertia_.push_back(
-        inverse(analysis_.rotary_inertia[node], analysis_.turning_body(node) >= 0 || gyroscopic_.contains(node)));
 }
 
 void ExplicitStep::refuse_loads_without_inertia() const {
@@ -161,6 +165,8 @@ void ExplicitStep::prepare_start() {
     rotation_constraints_.set_initial_velocities(analysis_, step_, instant());
     bodies_.set_initial_velocities(analysis_, instant());
   }
+  contact_.choose_springs(analysis_);
+  if (!state.dynamic) contact_.report_overclosure(analysis_, observer_);
   if (!state.dynamic) check_rolling_radius(analysis_, step_, observer_);
   state.dynamic = true;
 }
@@ -223,14 +229,14 @@ void ExplicitStep::add_interior_elements() {
   timers.measure(Phase::elements, [&] { add_elements(Portion::interior); });
 }
 
-void ExplicitStep::add_contact() {
-  auto& state = analysis_.current;
+void ExplicitStep::add_soft_contact() {
+  timers.measure(Phase::contact, [&] { contact_.add_forces(analysis_, force_.data()); });
+}
+
+void ExplicitStep::add_stiff_contact() {
   timers.measure(Phase::contact, [&] {
-    for (const auto pair : step_.active_contact_pairs) {
-      const auto& contact = analysis_.contacts[pair];
-      contact.add_forces(state.position.data(), state.rigid_bodies[contact.master_body()], state.contact[pair],
-                         force_.data());
-    }
+    constraints_.find_velocities(analysis_, step_, instant());
+    contact_.add_stiff_forces(analysis_, instant(), force_.data());
   });
 }
 
@@ -263,13 +269,14 @@ void ExplicitStep::sum_body_forces() {
 void ExplicitStep::choose_increment() {
   timers.measure(Phase::increment, [&] {
     auto& state = analysis_.current;
-    const bool attention = observer_.next_due() <= state.step_time;
+    const bool attention = observer_.next_due() <= state.step_time || state.increment % regular_increments == 0;
     std::array<double, 3> agreed{-stability_.increment, attention ? 1.0 : 0.0, failure_ ? 1.0 : 0.0};
     analysis_.communicator.maximum(std::span<double>(agreed));
     if (agreed[2] > 0.0) report_failure();
-    if (-agreed[0] < collapse * scale_.reference_increment) report_collapse();
+    if (-agreed[0] < collapse * analysis_.undeformed_increment) report_collapse();
     attention_ = agreed[1] > 0.0;
-    next_increment_ = control_.next_increment(state, last_increment_, -agreed[0]);
+    const double limit = combined_limit(-agreed[0], contact_.frequency_squared(analysis_), restraint_bound_);
+    next_increment_ = control_.next_increment(state, last_increment_, limit);
   });
 }
 
@@ -285,7 +292,7 @@ void ExplicitStep::report_collapse() {
       "step {}, increment {}, time {:.6g}: element {} has become so distorted that its stable increment is {:.3g} "
       "(undeformed model: {:.3g})",
       step_.name, analysis_.current.increment, analysis_.current.total_time, worst.payload, worst.value,
-      scale_.reference_increment));
+      analysis_.undeformed_increment));
 }
 
 void ExplicitStep::add_half_work(double increment, std::vector<NodalWork>& work) const {
@@ -311,8 +318,9 @@ void ExplicitStep::update_velocities() {
   const Instant now = instant();
   timers.measure(Phase::update, [&] {
     add_half_work(now.previous, state.nodal_work);
-    constraints_.find_reactions(analysis_, step_, now, force_.data());
-    rotation_constraints_.find_reactions(analysis_, step_, now, moment_.data());
+    constraints_.find_reactions(analysis_, now, force_.data());
+    rotation_constraints_.find_velocities(analysis_, step_, now);
+    rotation_constraints_.find_reactions(analysis_, now, moment_.data());
     const bool sound = kick(state.velocity, force_, inverse_mass_, now.average());
     if (!kick(state.angular_velocity, moment_, inverse_rotary_inertia_, now.average()) || !sound) remember_blow_up();
     constraints_.enforce(analysis_, now);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "explicit_bodies.hpp"
+#include "explicit_contact.hpp"
 #include "explicit_gyroscopic.hpp"
 #include "explicit_motion.hpp"
 #include "explicit_scale.hpp"
@@ -35,12 +36,14 @@ class ExplicitStep {
   void add_interface_elements();
   void begin_halo();
   void add_interior_elements();
-  void add_contact();
+  void add_soft_contact();
   void finish_halo();
   void add_damping();
   /// Agrees over all ranks on the next increment and on whether the observer wants to be called.
   /// @throws AnalysisError where the run has blown up or the increment collapsed.
   void choose_increment();
+  /// Behind choose_increment: springs that answer to the motion over the next increment.
+  void add_stiff_contact();
   /// Behind choose_increment, which tells what is prescribed over the next increment and whether the observer wants reactions.
   void sum_body_forces();
   void update_velocities();
@@ -58,7 +61,6 @@ class ExplicitStep {
   Instant instant() const;
   void add_elements(Portion portion);
   void refuse_loads_without_inertia() const;
-  void find_inverse_inertia();
   void find_loaded_nodes();
   NodalForces forces() { return {force_.data(), moment_.data()}; }
   NodalForces external_forces() { return {external_force_.data(), external_moment_.data()}; }
@@ -86,11 +88,12 @@ class ExplicitStep {
   TimeControl control_;
   NodalConstraints constraints_, rotation_constraints_;
   GyroscopicNodes gyroscopic_;
+  std::vector<double> inverse_mass_;  // zero for nodes that bodies move
+  ExplicitContact contact_;
   Halo external_halo_;
   bool has_loads_ = false;  // of any rank
 
   std::vector<double> force_, external_force_, damping_force_;  // 4 a node; damping empty where there is none
-  std::vector<double> inverse_mass_;                            // zero for nodes that bodies move
   // Of nodes that turn; moments as long as forces, so that both have the scratch node in one place, or empty:
   std::vector<double> moment_, external_moment_, damping_moment_;
   std::vector<double> inverse_rotary_inertia_;  // zero for nodes that bodies turn, and for gyroscopic ones

@@ -15,25 +15,18 @@ constexpr double increments_without_limit = 1000.0;
 constexpr double landing_tolerance = 1e-9;  // of an increment: rounding of accumulated times
 }  // namespace
 
-TimeControl::TimeControl(const Analysis& analysis, const Step& step, const RestraintBound& restraints)
+TimeControl::TimeControl(const Step& step)
     : duration_(step.duration()),
       scale_factor_(std::get<ExplicitProcedure>(step.procedure).scale_factor),
-      damping_rate_(restraints.rate),
-      fixed_(std::get<ExplicitProcedure>(step.procedure).fixed_increment.value_or(0.0)) {
-  double largest = 0.0;
-  for (const auto pair : step.active_contact_pairs)
-    largest = std::max(largest, analysis.contacts[pair].largest_spring_frequency_squared(analysis.nodal_mass));
-  spring_frequency_squared_ = analysis.communicator.maximum(largest) + restraints.omega_square;
-}
+      fixed_(std::get<ExplicitProcedure>(step.procedure).fixed_increment.value_or(0.0)) {}
 
-double TimeControl::combined(double stable) const {
-  // The largest eigenvalue of a sum is at most the sum of the largest: omega^2 = (2 / stable)^2 + spring frequency^2.
-  return neutral_increment(4.0 / (stable * stable) + spring_frequency_squared_, damping_rate_);
+double combined_limit(double stable, double contact_frequency_squared, const RestraintBound& restraints) {
+  const double omega_square = 4.0 / (stable * stable) + contact_frequency_squared + restraints.omega_square;
+  return neutral_increment(omega_square, restraints.rate);
 }
 
 double TimeControl::automatic(State& state, double previous, double stable) const {
-  const double limit = combined(stable);
-  const double now = limit < no_limit ? scale_factor_ * limit : duration_ / increments_without_limit;
+  const double now = stable < no_limit ? scale_factor_ * stable : duration_ / increments_without_limit;
   if (previous == 0.0) state.least_stable = now;
   state.least_stable = std::min(state.least_stable, now);
   double increment = previous > 0.0 ? std::min(previous, now) : now;

@@ -22,6 +22,10 @@ struct RestraintBound {
   double omega_square = 0.0, rate = 0.0;
 };
 
+/// Elements' limit combined with that of contact springs, springs and dashpots: the squares of frequencies and the damping rates
+/// add up at most.
+double combined_limit(double stable, double contact_frequency_squared, const RestraintBound& restraints);
+
 /// The stable increment of this rank's elements, and the id of the element that governs it.
 struct LocalStability {
   double increment = 1e300;
@@ -38,23 +42,18 @@ struct LocalStability {
 /// lowered at once, but raised only in steps, to what was stable all through the increments since the last look at it.
 class TimeControl {
  public:
-  /// Collective.
-  TimeControl(const Analysis& analysis, const Step& step, const RestraintBound& restraints);
+  explicit TimeControl(const Step& step);
 
-  /// Increment that follows the state's instant when `previous` led there (0: none) and `stable` is the elements'
-  /// limit; 0 at the end of the step. It lands on the step's end exactly and splits what remains evenly, so that no
+  /// Increment that follows the state's instant when `previous` led there (0: none) and `stable` is the limit; 0 at the end of the step. It lands on the step's end exactly and splits what remains evenly, so that no
   /// sliver is left over. Keeps State::least_stable.
   double next_increment(State& state, double previous, double stable) const;
   /// Time at the end of an increment, exactly the step's duration at its end.
   double time_after(double step_time, double increment) const;
-  /// Elements' limit combined with that of contact springs, springs and dashpots (omega^2 and damping rates add up at most), without
-  /// scale factor.
-  double combined(double stable) const;
 
  private:
   double automatic(State& state, double previous, double stable) const;
 
-  double duration_, scale_factor_, spring_frequency_squared_, damping_rate_;
+  double duration_, scale_factor_;
   double fixed_ = 0.0;  // 0: automatic
 };
 

@@ -56,9 +56,7 @@ MotionLaw motion_law(const Model& model, const Step& step, const BoundaryConditi
   if (condition.kind != Kind::displacement)
     return {1.0, condition.magnitude * integral(model, condition.amplitude, step_time, total_time,
                                                 condition.kind == Kind::velocity ? 0 : 1)};
-  // A curve over total time goes on where the earlier step left it; any other earlier motion has arrived.
-  const bool goes_on = condition.amplitude >= 0 && model.amplitudes[condition.amplitude].total_time;
-  if (condition.propagated && !goes_on) return {};
+  if (has_arrived(model, condition)) return {};
   const double factor = amplitude_factor(model, step, condition.amplitude, step_time, total_time);
   return {condition.amplitude >= 0 ? 0.0 : 1.0 - factor, condition.magnitude * factor};
 }

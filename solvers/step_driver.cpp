@@ -10,6 +10,11 @@ double amplitude_factor(const Model& model, const Step& step, std::int32_t ampli
   return step.ramps_loads() && step.duration() > 0.0 ? step_time / step.duration() : 1.0;
 }
 
+bool has_arrived(const Model& model, const BoundaryCondition& condition) {
+  const bool goes_on = condition.amplitude >= 0 && model.amplitudes[condition.amplitude].total_time;
+  return condition.fixed || (condition.propagated && !goes_on);
+}
+
 double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,
                       double step_time, double total_time) {
   const double factor = amplitude_factor(model, step, amplitude, step_time, total_time);

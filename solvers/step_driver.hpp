@@ -10,6 +10,10 @@ namespace balocco {
 /// Factor on a load's magnitude at `step_time`: its amplitude's value, or the procedure's default (static: ramp; explicit: 1).
 double amplitude_factor(const Model& model, const Step& step, std::int32_t amplitude, double step_time, double total_time);
 
+/// Whether a prescribed displacement holds its node where the step finds it: it is FIXED, or an earlier step said it and its
+/// curve (a curve over total time goes on) ended there.
+bool has_arrived(const Model& model, const BoundaryCondition& condition);
+
 /// Magnitude of a load that stood at `previous` when the step started.
 double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,
                       double step_time, double total_time);

@@ -68,16 +68,20 @@ struct Progress {
   std::int64_t critical_element = -1;  // id of the element that governs the increment (explicit), else -1
   int iterations = 0;                  // Newton iterations of the increment (implicit)
   double largest_residual = 0.0;       // at convergence (implicit)
+  double largest_penetration = 0.0;    // of all active contact pairs (explicit)
   bool step_finished = false;
 };
+
+/// An explicit procedure calls its observer at least in increments that are multiples of this, and checks its energies then.
+constexpr std::int64_t regular_increments = 100;
 
 class Observer {
  public:
   virtual ~Observer() = default;
   /// Before the first increment of a step (also when restarted in its middle): the source is complete and at rest. Collective.
   virtual void step_started(const ResultSource& source, std::int32_t step) = 0;
-  /// Called by every rank after every static increment, and after an explicit increment once step_time >= next_due() and at the
-  /// end of the step. @return false to stop the run (a checkpoint has been written). Collective.
+  /// Called by every rank after every static increment, after an explicit increment once step_time >= next_due(), in
+  /// every regular increment and at the end of the step. @return false to stop the run (a checkpoint has been written). Collective.
   virtual bool advanced(const ResultSource& source, const Progress& progress) = 0;
   /// Step time at which the observer next wants to be called; explicit increments are not shortened for it.
   virtual double next_due() const = 0;

@@ -33,6 +33,8 @@ struct ContactPoint {
   Point anchor{};           // in the frame of the master body: sticking point; of an open point: where it is
   double slip = 0.0;        // accumulated sliding distance
   double frictional_dissipation = 0.0;
+  double stiff_spring = 0.0;  // explicit: normal stiffness that `multiplier` goes with; 0: that of the pair
+  double stiff_force = 0.0;   // and its force at the last instant, which where the point is does not tell
 };
 
 /// Work done on a node, by kind: up to now, explicit: up to the middle of the increment to come. Copies of a shared node hold the same bits; sums are taken over owners.

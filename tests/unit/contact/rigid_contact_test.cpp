@@ -399,12 +399,19 @@ TEST(RigidContact, ResultantSumsOverTheSurface) {
   EXPECT_NEAR(sum.greatest_penetration, depth, 1e-15);
 }
 
-TEST(RigidContact, LightestNodeBoundsTheSpringFrequency) {
-  const Contact contact;
-  std::vector<double> mass(contact.domain.size(), 1.0);
-  mass[2] = 0.25;
-  mass[1] = 0.0;  // without mass: left out
-  EXPECT_DOUBLE_EQ(contact.pair.largest_spring_frequency_squared(mass), contact.k() / 0.25);
+TEST(RigidContact, SpringsThatACycleMustFollowAddUp) {
+  Contact contact;
+  std::vector<double> sum(contact.domain.size(), 0.0);
+  std::vector<bool> stiff(contact.pair.size(), false);
+  contact.pair.add_spring_stiffness(stiff, sum);
+  contact.pair.add_spring_stiffness(stiff, sum);  // as of a second pair
+  EXPECT_DOUBLE_EQ(sum[contact.pair.nodes()[0]], 2.0 * contact.k());
+  Contact smooth(road({line({-300, 0}, {300, 0})}), 0.0);
+  stiff[0] = true;
+  std::fill(sum.begin(), sum.end(), 0.0);
+  smooth.pair.add_spring_stiffness(stiff, sum);
+  EXPECT_EQ(sum[smooth.pair.nodes()[0]], 0.0);  // a stiff spring without friction bounds nothing
+  EXPECT_GT(sum[smooth.pair.nodes()[1]], 0.0);
 }
 
 }  // namespace

@@ -1,0 +1,60 @@
+// Contact in an explicit step: which springs its pairs have, when they push, and how far nodes have sunk in.
+#pragma once
+
+#include <vector>
+
+#include "explicit_bodies.hpp"
+#include "explicit_motion.hpp"
+
+namespace balocco {
+
+/// A slave node that is free to move, against a master all whose motion is prescribed, has a stiff normal spring: its force
+/// is found together with the motion it causes, so that it limits no increment. Nodes of rigid bodies, nodes that are held,
+/// and nodes against free masters have softer springs, which the stable increment must follow.
+class ExplicitContact {
+ public:
+  ExplicitContact(const Analysis& analysis, const Step& step, const NodalConstraints& constraints,
+                  const RigidDynamics& bodies, std::span<const double> inverse_mass);
+
+  /// At the start of a step: gives closed points the springs of this step without changing their forces.
+  void choose_springs(Analysis& analysis) const;
+  /// Warns of nodes that start below a surface. Collective.
+  void report_overclosure(const Analysis& analysis, Observer& observer) const;
+
+  /// Soft springs: between the halo's two halves, alike on every copy of a node.
+  void add_forces(Analysis& analysis, double* force) const;
+  /// Stiff springs: when `force` is whole and NodalConstraints::find_velocities() has told what is prescribed.
+  void add_stiff_forces(Analysis& analysis, const Instant& instant, double* force);
+
+  /// Bound of what the springs add to the square of the highest frequency: stiffness / mass summed over the pairs of a node,
+  /// and of all closed points against a free master. Collective where there are free masters.
+  double frequency_squared(const Analysis& analysis) const;
+  /// Deepest penetration over all ranks and pairs. Collective.
+  double largest_penetration(const Analysis& analysis) const;
+  /// Tells once a step when a closed node has come to where the profile of its master had ended. Collective.
+  void report_past_end(const Analysis& analysis, Observer& observer);
+
+ private:
+  struct Pair {
+    std::int32_t row = -1;  // of Model::contact_pairs
+    RigidDynamics::Yielding master;
+    std::vector<SlaveFreedom> freedom;  // per point
+    std::vector<bool> stiff;            // per point
+    bool past_end_told = false;
+  };
+  /// A constraint that says how a point moves along one of its held directions.
+  struct Held {
+    std::size_t pair, point;
+    int direction;
+    const NodalConstraints::Constraint* constraint;
+  };
+
+  double frequency_squared_of_masters(const Analysis& analysis) const;
+
+  std::vector<Pair> pairs_;
+  std::vector<Held> held_;
+  double nodal_frequency_squared_ = 0.0;
+  bool free_masters_ = false;
+};
+
+}  // namespace balocco

@@ -1,0 +1,143 @@
+#!/usr/bin/env python3
+"""Explicit dynamics as users meet it: bouncing, pressing, lifting off, sliding off; runs the real binary and checks what it wrote.
+
+usage: explicit_contact_cases.py CASE BALOCCO RANKS FOLDER      exit status 0: everything within tolerance
+"""
+import sys
+
+import numpy as np
+
+from explicit_cases import Job, check, check_energy, failures
+
+
+def block(nx, ny, nz, size, element="C3D8R", height=0.0, law="*ELASTIC\n10., 0.3", density=1e-9):
+    """Bricks of `size` (mm, t, s), the lowest layer's faces SOLE on the profile GROUND; node sets LOW, TOP, ALL."""
+    lines = ["*HEADING", "block", "*NODE, NSET=ALL"]
+    number = lambda i, j, k: 1 + i + (nx + 1) * (j + (ny + 1) * k)
+    nodes = [(i, j, k) for k in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)]
+    lines += [f"{number(*n)}, {n[0] * size[0]}, {height + n[1] * size[1]}, {n[2] * size[2]}" for n in nodes]
+    lines += ["*NODE, NSET=NREF", "9000, 0., 0., 0.", f"*ELEMENT, TYPE={element}, ELSET=BLOCK"]
+    count, sole = 0, []
+    for k in range(nz):
+        for j in range(ny):
+            for i in range(nx):
+                count += 1
+                lower, upper = [[number(i + a, j + b, k + c) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))] for c in (0, 1)]
+                lines.append(", ".join(str(n) for n in [count] + lower + upper))
+                if j == 0:
+                    sole.append(count)
+    sets = {"LOW": [number(i, 0, k) for k in range(nz + 1) for i in range(nx + 1)],
+            "TOP": [number(i, ny, k) for k in range(nz + 1) for i in range(nx + 1)]}
+    for name, members in sets.items():
+        lines += [f"*NSET, NSET={name}"] + [", ".join(map(str, members[i:i + 8])) for i in range(0, len(members), 8)]
+    lines += ["*ELSET, ELSET=SOLE"] + [str(e) for e in sole]
+    lines += ["*SOLID SECTION, ELSET=BLOCK, MATERIAL=M", "*MATERIAL, NAME=M", law, "*DENSITY", str(density),
+              "*SURFACE, NAME=SLAVE", "SOLE, S3", "*SURFACE, NAME=GROUND, TYPE=SEGMENTS", "START, -100., 0.", "LINE, 100., 0.",
+              "*RIGID BODY, REF NODE=9000, ANALYTICAL SURFACE=GROUND", "*SURFACE INTERACTION, NAME=I", "FRICTION",
+              "*CONTACT PAIR, INTERACTION=I", "SLAVE, GROUND", "*BOUNDARY", "9000, 1, 6"]
+    return "\n".join(lines).replace("\nFRICTION", "") + "\n"
+
+
+ENERGIES = "*OUTPUT, HISTORY, TIME INTERVAL={}\n*NODE OUTPUT, NSET=NREF\nRF2\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLCW, ALLVD, ALLWK, ETOTAL\n*END STEP\n"
+
+
+def bouncing_plate(job):
+    """A flat plate bounces with the automatic increment; no viscosity: the energy of its ringing is not pumped."""
+    deck = block(6, 1, 6, (10.0, 2.0, 10.0), "C3D8", height=1.0, law="*ELASTIC\n70000., 0.3", density=2.7e-9)
+    job.run(deck + "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 2, -5000.\n*STEP\n*DYNAMIC, EXPLICIT\n, 0.002\n*BULK VISCOSITY\n0., 0.\n"
+            + ENERGIES.format(2e-5))
+    check_energy(job, 1e-2)
+    velocity = job.history("energy", "ALLKE")[1]
+    check("it does not lose its energy in the impact", velocity[-20:].mean() / velocity[0], 1.0, 0.25)
+
+
+def pressed_block(job):
+    """A rubber block pressed 20 %: the same force in statics and, slowly, in the explicit loop; it stands on the ground."""
+    rubber = "*HYPERELASTIC, NEO HOOKE\n0.5, 0.1"
+    deck = block(3, 4, 3, (5.0, 5.0, 5.0), law=rubber) + "*AMPLITUDE, NAME=RISE, DEFINITION=SMOOTH STEP\n0., 0., 8e-3, 1.\n"
+    deck += "*STEP, NLGEOM\n"
+    job.run(deck + "*STATIC\n0.5, 1.\n*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\nTOP, 2, 2, -4.\n" + ENERGIES.format(0.5))
+    still = abs(job.history("node_9000", "RF2")[1][-1])
+    work = abs(job.history("energy", "ALLWK")[1][-1])
+    check("energy of hard contact", job.history("energy", "ALLCW")[1][-1] / work, 0.0, 1e-3)
+    check("balance of energies in statics", job.history("energy", "ETOTAL")[1][-1] / work, 0.0, 0.02)
+    explicit = "*STEP\n*DYNAMIC, EXPLICIT\n, 10e-3\n*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\n*BOUNDARY, AMPLITUDE=RISE\nTOP, 2, 2, -4.\n"
+    job.run(deck.replace("*STEP, NLGEOM\n", "") + explicit + ENERGIES.format(1e-4))
+    moving = np.abs(job.history("node_9000", "RF2")[1][-15:]).mean()
+    check("force in the explicit loop against statics", moving, still, 0.03)
+    penetration = float((job.folder / f"{job.name}.sta").read_text().strip().splitlines()[-3].split()[12])
+    check("greatest penetration (mm), told in .sta", penetration, 0.0, 0.12)
+    check_energy(job, 1e-2)
+
+
+def lifted_block(job):
+    """Pressed by statics, lifted and pressed again explicitly: nothing pushes across a gap, and the force comes back."""
+    rubber = "*HYPERELASTIC, NEO HOOKE\n0.5, 0.1"
+    deck = block(3, 4, 3, (5.0, 5.0, 5.0), law=rubber)
+    deck += "*AMPLITUDE, NAME=A, DEFINITION=SMOOTH STEP\n0., -4., 5e-3, 1., 10e-3, -4., 12e-3, -4.\n"
+    deck += "*STEP, NLGEOM\n*STATIC\n0.5, 1.\n*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\nTOP, 2, 2, -4.\n" + ENERGIES.format(0.5)
+    output = "*OUTPUT, FIELD, NUMBER INTERVAL=24\n*NODE OUTPUT\nU, RF\n"
+    job.run(deck + "*STEP\n*DYNAMIC, EXPLICIT\n, 12e-3\n*BOUNDARY, AMPLITUDE=A\nTOP, 2, 2, 1.\n" + output + ENERGIES.format(1e-4))
+    still = abs(job.history("node_9000", "RF2")[1][-1])
+    force = np.abs(job.history("node_9000", "RF2", 2)[1])
+    check("force when the explicit step starts", force[0], still, 1e-3)
+    check("force when it is pressed again", force[-15:].mean(), still, 0.03)
+    coordinates, _ = job.mesh("C3D8R")
+    low, across = coordinates[:-1, 1] == 0.0, 0.0
+    for frame in range(25):
+        height, load = job.frame("U", frame, 2)[:-1, 1][low].min(), np.abs(job.frame("RF", frame, 2)[-1, 1])
+        if height > 0.05:
+            across = max(across, load)
+    check("largest force across a gap", across / still, 0.0, 1e-6)
+
+
+def velocities_set_once(job):
+    """What is given twice is set once, later lines win: a body with all its nodes, and a free block."""
+    deck = block(1, 1, 1, (10.0, 10.0, 10.0), height=50.0) + "*NODE, NSET=HUB\n9100, 5., 55., 5.\n"
+    body = "*RIGID BODY, REF NODE=9100, ELSET=BLOCK\n"
+    step = "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-5\n" + ENERGIES.format(1e-6)
+    twice = "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 2, -7.\nALL, 2, -1000.\n"
+    energy = 0.5 * 1e-9 * 1e3 * 1e6
+    job.run(deck + body + twice.replace("ALL, 2, -7.", "HUB, 2, -1000.") + step)
+    check("energy of a body given its velocity twice", job.history("energy", "ALLKE")[1][0], energy, 1e-9)
+    job.run(deck + twice + step)
+    check("energy of a block given its velocity twice", job.history("energy", "ALLKE")[1][0], energy, 1e-9)
+
+
+def lost_energy(job):
+    """Beyond the limit of stability the balance of energies is lost, slowly at first: the run says so and ends with 3."""
+    deck = block(2, 2, 2, (1.0, 1.0, 1.0), "C3D8", height=5.0, law="*ELASTIC\n70000., 0.3", density=2.7e-9)
+    step = "*INITIAL CONDITIONS, TYPE=VELOCITY\nLOW, 2, -1.\n*STEP\n*DYNAMIC, EXPLICIT, DIRECT{}\n{}, 1.\n*BULK VISCOSITY\n0., 0.\n*END STEP\n"
+    output = job.run(deck + step.format("", 1.9e-7), expected_status=3)
+    check("the reason", float("energy balance is lost" in output or "blown up" in output or "distorted" in output), 1.0, 0.0)
+
+
+def blown_up_at_the_end(job):
+    """A run that blows up in its very last increment has failed."""
+    deck = block(1, 1, 1, (1.0, 1.0, 1.0), height=5.0, law="*ELASTIC\n70000., 0.3", density=2.7e-9)
+    deck += "*AMPLITUDE, NAME=KICK\n0., 0., 0.9e-7, 0., 1e-7, 1.\n"
+    step = "*STEP\n*DYNAMIC, EXPLICIT, DIRECT\n5e-8, 1e-7\n*CLOAD, AMPLITUDE=KICK\n1, 2, 1e-3\n*BOUNDARY, AMPLITUDE=KICK\nTOP, 2, 2, 1e12\n*END STEP\n"
+    job.run(deck + step, expected_status=3)
+
+
+def past_the_end(job):
+    """A block slides past the end of the profile: the log tells, once."""
+    deck = block(2, 1, 1, (5.0, 5.0, 5.0)).replace("START, -100., 0.\nLINE, 100., 0.", "START, -5., 0.\nLINE, 12., 0.")
+    job.run(deck + "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 1, 5000.\n*STEP\n*DYNAMIC, EXPLICIT\n, 4e-3\n*DLOAD\nBLOCK, GRAV, 9810., 0., -1., 0.\n"
+            + ENERGIES.format(1e-4))
+    check("warnings", job.log().count("profile of GROUND ends"), 1, 0.0)
+
+
+def below_the_ground(job):
+    """A block that starts below the ground: node and depth are told."""
+    job.run(block(1, 1, 1, (5.0, 5.0, 5.0), height=-0.25) + "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-5\n" + ENERGIES.format(1e-6))
+    check("warning", float("node 1 of SLAVE starts 0.25 below GROUND" in job.log()), 1.0, 0.0)
+
+
+CASES = {case.__name__: case for case in (bouncing_plate, pressed_block, lifted_block, velocities_set_once, lost_energy,
+                                          blown_up_at_the_end, past_the_end, below_the_ground)}
+
+if __name__ == "__main__":
+    case, balocco, ranks, folder = sys.argv[1:]
+    CASES[case](Job(case, balocco, ranks, folder))
+    sys.exit(f"{len(failures)} checks failed" if failures else 0)
