@@ -260,6 +260,20 @@ void Writer::spring(const char* keyword, const Section& section, std::size_t row
   for (const auto& [at, force] : table) line("{}, {}", force, at);
 }
 
+void Writer::beam_section(const Section& section, std::size_t row, const std::string& set) {
+  const BeamProfile& profile = section.beam;
+  const char* const words[] = {"GENERAL", "RECT", "CIRC", "PIPE", "BOX", "I"};
+  const bool general = profile.shape == BeamProfile::Shape::general;
+  const auto keyword = general ? fmt::format("BEAM GENERAL SECTION, SECTION=GENERAL, DENSITY={}", profile.density)
+                               : fmt::format("BEAM SECTION, SECTION={}", words[static_cast<int>(profile.shape)]);
+  section_line(keyword.c_str(), section, row, set);
+  values(profile.dimensions);
+  values(profile.n1);
+  if (general) line("{}, {}", profile.youngs_modulus, profile.shear_modulus);
+  if (profile.shear_stiffness)
+    line("*TRANSVERSE SHEAR STIFFNESS\n{}, {}", (*profile.shear_stiffness)[1], (*profile.shear_stiffness)[0]);
+}
+
 void Writer::section(std::size_t row) {
   const Section& section = model_.sections[row];
   std::vector<ElementRef> elements;
@@ -281,6 +295,8 @@ void Writer::section(std::size_t row) {
     case Section::Kind::truss:
       section_line("SOLID SECTION", section, row, set);
       return line("{}", section.area);
+    case Section::Kind::beam:
+      return beam_section(section, row, set);
     case Section::Kind::mass:
       section_line("MASS", section, row, set);
       return line("{}", section.mass);

@@ -20,6 +20,7 @@ const char* word(Section::Kind kind) {
     case Section::Kind::solid: return "solid";
     case Section::Kind::membrane: return "membrane";
     case Section::Kind::truss: return "truss";
+    case Section::Kind::beam: return "beam";
     case Section::Kind::mass: return "mass";
     case Section::Kind::rotary_inertia: return "rotary inertia";
     case Section::Kind::spring: return "spring";

@@ -18,6 +18,8 @@ const char* describe(Section::Kind kind) {
       return "*MEMBRANE SECTION";
     case Section::Kind::truss:
       return "*SOLID SECTION with an area";
+    case Section::Kind::beam:
+      return "*BEAM SECTION or *BEAM GENERAL SECTION";
     case Section::Kind::mass:
       return "*MASS";
     case Section::Kind::rotary_inertia:

@@ -195,13 +195,17 @@ void Checker::check_law(const Section& section, std::int32_t material) {
   const bool composite = !section.plies.empty();
   const bool fits = section.kind == Section::Kind::solid   ? law->solid != nullptr
                     : section.kind == Section::Kind::truss ? law->line != nullptr
+                    : section.kind == Section::Kind::beam  ? law->line != nullptr && law->lamina_stiffness != nullptr
                     : section.kind == Section::Kind::membrane
                         ? (composite ? law->lamina_stiffness != nullptr : law->plane != nullptr)
                         : true;
   if (!fits) {
     error(section.location,
           fmt::format("*{}: the law {} of material {} does not exist for these elements; choose another law",
-                      section.kind == Section::Kind::membrane ? "MEMBRANE SECTION" : "SOLID SECTION", law->name,
+                      section.kind == Section::Kind::membrane ? "MEMBRANE SECTION"
+                      : section.kind == Section::Kind::beam   ? "BEAM SECTION"
+                                                              : "SOLID SECTION",
+                      law->name,
                       model_.materials[material].name));
   }
 }

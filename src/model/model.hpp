@@ -166,15 +166,27 @@ struct SpringProperty {
   std::vector<std::array<double, 2>> table;     // (relative displacement or velocity, force), rising; constant beyond its ends
 };
 
+/// The cross-section of a beam; coordinates along n1 and n2 from the centroid, which the nodes are.
+struct BeamProfile {
+  /// Numbers in `dimensions`, as Abaqus orders them: general A I11 I12 I22 J; rectangle a b; circle r; pipe r t; box a b t1 t2 t3 t4;
+  /// i_section l h b1 b2 t1 t2 t3.
+  enum class Shape { general, rectangle, circle, pipe, box, i_section } shape = Shape::general;
+  std::vector<double> dimensions;
+  Point n1{0.0, 0.0, -1.0};
+  std::optional<std::array<double, 2>> shear_stiffness;  // of shear along n1 and n2; none: from the material
+  double youngs_modulus = 0.0, shear_modulus = 0.0, density = 0.0;  // general
+};
+
 enum class HourglassControl { enhanced, stiffness };
 
 struct Section {
-  enum class Kind { solid, membrane, shell, truss, mass, rotary_inertia, spring, dashpot, rigid } kind = Kind::solid;
+  enum class Kind { solid, membrane, shell, truss, beam, mass, rotary_inertia, spring, dashpot, rigid } kind = Kind::solid;
   std::string element_set;
   std::int32_t material = -1;     // -1: none, or composite
   std::int32_t orientation = -1;  // row of Model::orientations, -1: the default directions
   double thickness = 1.0;         // membranes and shells: total thickness
   double area = 1.0;              // trusses
+  BeamProfile beam;
   std::vector<Ply> plies;         // composite membranes and shells
   ShellOptions shell;
   HourglassControl hourglass = HourglassControl::enhanced;

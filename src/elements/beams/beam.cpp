@@ -1,0 +1,168 @@
+#include "elements/beams/beam.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "elements/element_type.hpp"
+#include "elements/history_pack.hpp"
+#include "elements/nodal_packs.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+BeamGroup::BeamGroup(const GroupInput& input)
+    : ElementGroup(input),
+      section_data_(beam_section(input.model, input.model.sections[input.section])),
+      records_(static_cast<std::size_t>(padded_size_) * rows) {
+  for (std::int32_t element = 0; element < padded_size_; ++element) set_reference(input.model, element);
+}
+
+void BeamGroup::set_reference(const Model& model, std::int32_t element) {
+  const ElementTable& table = model.elements[table_];
+  const auto row = static_cast<std::size_t>(rows_[element]);
+  const Point& a = model.nodes.coordinates[table.connectivity[2 * row]];
+  const Point& b = model.nodes.coordinates[table.connectivity[2 * row + 1]];
+  const double l = std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+  if (!(l > 0.0))
+    throw InputError(fmt::format("{}: error: *ELEMENT: beam {} has no length; correct its nodes",
+                                 model.where(table.location[row]), table.id[row]));
+  const Section& section = model.sections[section_];
+  std::array<Point, 3> directions;
+  if (!beam_frame(a, b, section.beam.n1, directions))
+    throw InputError(fmt::format(
+        "{}: error: *BEAM SECTION: direction n1 ({:g}, {:g}, {:g}) runs along the axis of element {}; give another one on the "
+        "second data line",
+        model.where(section.location), section.beam.n1[0], section.beam.n1[1], section.beam.n1[2], table.id[row]));
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) reference(element, frame + 3 * i + k) = directions[k][i];
+  reference(element, length) = l;
+  const auto stiffness = element_shear_stiffness(l);
+  for (int k = 0; k < 3; ++k) reference(element, shear + k) = stiffness[k];
+  set_inertia(element, stiffness);
+}
+
+/// Shear stiffness 11, 22, 12: the inverse of the flexibility of the section's shear and of the residual bending.
+std::array<double, 3> BeamGroup::element_shear_stiffness(double l) const {
+  const BeamArea& s = section_data_.shape;
+  const double residual = l * l / (12.0 * section_data_.youngs_modulus * (s.i11 * s.i22 - s.i12 * s.i12));
+  const double f11 = 1.0 / section_data_.shear_stiffness[0] + residual * s.i11;
+  const double f22 = 1.0 / section_data_.shear_stiffness[1] + residual * s.i22;
+  const double f12 = -residual * s.i12, determinant = f11 * f22 - f12 * f12;
+  return {f22 / determinant, f11 / determinant, -f12 / determinant};
+}
+
+/// With masses m = rho A L / 2 and inertias J the free element oscillates in shear with omega^2 = K (2 / (m L) + L / (2 J)), in
+/// bending with 2 E I / (L J), in torsion with 2 G Jt / (L J) and along its axis with 4 E / (rho L^2), which J makes the largest
+/// unless the shear stiffness was given nearly as large as that of stretch.
+void BeamGroup::set_inertia(std::int32_t element, const std::array<double, 3>& k) {
+  const BeamArea& s = section_data_.shape;
+  const double e = section_data_.youngs_modulus, rho = section_data_.density, l = reference(element, length);
+  const double half = 0.5 * (k[0] + k[1]), largest = half + std::hypot(0.5 * (k[0] - k[1]), k[2]);
+  const double in_shear = largest * rho * l * l * l / (8.0 * std::max(e - largest / s.area, 0.1 * e));
+  const double in_torsion = 0.5 * rho * l * section_data_.shear_modulus * s.torsion / e;
+  const double j = std::max({0.5 * rho * l * (s.i11 + s.i22), in_shear, in_torsion});
+  reference(element, inertia) = j;
+  reference(element, frequency) = std::max(4.0 * e / (rho * l * l), largest * (4.0 / (rho * s.area * l * l) + 0.5 * l / j));
+}
+
+void BeamGroup::initialize_history(std::span<double> history) const { std::fill(history.begin(), history.end(), 0.0); }
+
+void BeamGroup::lumped_mass(std::int32_t element, std::span<double> mass) const {
+  mass[0] = mass[1] = 0.5 * section_data_.density * section_data_.shape.area * reference(element, length);
+}
+
+void BeamGroup::lumped_rotary_inertia(std::int32_t element, std::span<double> share) const {
+  share[0] = share[1] = reference(element, inertia);
+}
+
+/// Stiffness-proportional damping and linear bulk viscosity b1 rho c L along the axis; books what they dissipate.
+/// @return damping coefficient of the fastest oscillation (damping / mass), for the stable increment
+Pack BeamGroup::add_viscosity(std::int32_t first, const BeamVector<Pack>& strain, const ExplicitCycle& cycle,
+                              std::span<double> history, BeamVector<Pack>& resultant) const {
+  const auto row = [&](int component) { return history.data() + component * std::ptrdiff_t{padded_size_} + first; };
+  const double* const data = record(first);
+  const Pack l = load(data + length * pack_size);
+  const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
+  const double wave = std::sqrt(section_data_.youngs_modulus / section_data_.density);
+  BeamVector<Pack> rate;
+  for (int i = 0; i < 6; ++i) {
+    rate[i] = inverse_increment * (strain[i] - load_unaligned(row(1 + i)));
+    store_unaligned(strain[i], row(1 + i));
+  }
+  BeamVector<Pack> viscous{};
+  if (section_data_.damping_beta > 0.0) {
+    viscous = resultants(rate, {load(data + shear * pack_size), load(data + (shear + 1) * pack_size),
+                                load(data + (shear + 2) * pack_size)});
+    for (auto& component : viscous) component = section_data_.damping_beta * component;
+  }
+  viscous[2] += (cycle.linear_bulk_viscosity * section_data_.density * wave * section_data_.shape.area) * l * rate[2];
+  Pack power = viscous[0] * rate[0];
+  for (int i = 1; i < 6; ++i) power = power + viscous[i] * rate[i];
+  for (int i = 0; i < 6; ++i) resultant[i] = resultant[i] + viscous[i];
+  store_unaligned(load_unaligned(row(0)) + cycle.increment * (l * power), row(0));
+  const Pack axial = wave / l;
+  return (4.0 * section_data_.damping_beta) * axial * axial + (4.0 * cycle.linear_bulk_viscosity) * axial;
+}
+
+void BeamGroup::add_pack(std::int32_t first, const ExplicitCycle& cycle, std::span<double> history,
+                         StableIncrement& stable) const {
+  const double* const data = record(first);
+  const std::int32_t *const node = connectivity_.data() + 2 * first, *const target = scatter_.data() + 2 * first;
+  Matrix3<Pack> e;
+  for (int i = 0; i < 9; ++i) e.component[i] = load(data + (frame + i) * pack_size);
+  const Pack l = load(data + length * pack_size);
+  const auto k = beam_kinematics(gather(cycle.motion.position, node + 1, 2) - gather(cycle.motion.position, node, 2),
+                                 gather_four(cycle.motion.orientation, node, 2),
+                                 gather_four(cycle.motion.orientation, node + 1, 2), e, Pack(1.0 / l));
+  BeamVector<Pack> resultant = resultants(k.strain, {load(data + shear * pack_size), load(data + (shear + 1) * pack_size),
+                                                     load(data + (shear + 2) * pack_size)});
+  const Pack damping = add_viscosity(first, k.strain, cycle, history, resultant);
+  const auto forces = beam_forces(k, resultant, e);
+  scatter_subtract(Vector3<Pack>() - forces.force, target, 2, cycle.forces.force);
+  scatter_subtract(forces.force, target + 1, 2, cycle.forces.force);
+  scatter_subtract(forces.moment_a, target, 2, cycle.forces.moment);
+  scatter_subtract(forces.moment_b, target + 1, 2, cycle.forces.moment);
+
+  // What forces and moments add by turning with the element is bounded, not solved for.
+  const auto magnitude = [](const Pack& x, const Pack& y, const Pack& z) { return square_root(x * x + y * y + z * z); };
+  const Pack j = load(data + inertia * pack_size);
+  const Pack turning = magnitude(resultant[0], resultant[1], resultant[2]) *
+                           (4.0 / (section_data_.density * section_data_.shape.area * l * l) + 0.5 * l / j) +
+                       magnitude(resultant[3], resultant[4], resultant[5]) / j;
+  const Pack omega = square_root(load(data + frequency * pack_size) + turning);
+  const Pack ratio = 0.5 * damping / omega;
+  const Pack increment = 2.0 * (square_root(1.0 + ratio * ratio) - ratio) / omega;
+  if (any_of(increment < Pack(stable.increment)))
+    for (int lane = 0; lane < pack_size; ++lane)
+      if (increment[lane] < stable.increment) stable = {increment[lane], first + lane};
+}
+
+StableIncrement BeamGroup::add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const {
+  const std::int32_t begin = portion == Portion::interface ? 0 : interface_padded_;
+  const std::int32_t end = portion == Portion::interface ? interface_padded_ : padded_size_;
+  StableIncrement stable;
+  for (std::int32_t first = begin; first < end; first += pack_size) add_pack(first, cycle, history, stable);
+  return stable;
+}
+
+std::size_t BeamGroup::bytes_per_element() const { return rows * sizeof(double) + 4 * sizeof(std::int32_t); }
+
+namespace {
+
+const RegisterElement b31({.name = "B31",
+                           .shape = Shape::line,
+                           .nodes = 2,
+                           .integration_points = 1,
+                           .turns = true,
+                           .section = Section::Kind::beam,
+                           .faces = {},
+                           .cycle_cost = 60,
+                           .make_group = [](const GroupInput& input) -> std::unique_ptr<ElementGroup> {
+                             return std::make_unique<BeamGroup>(input);
+                           }});
+
+}  // namespace
+
+}  // namespace balocco

@@ -1,0 +1,130 @@
+// Beams outside the explicit loop: exact tangent, energies, output.
+#include <algorithm>
+#include <cmath>
+
+#include "elements/beams/beam.hpp"
+
+namespace balocco {
+
+namespace {
+
+Vector3<double> beam_axis(std::span<const std::int32_t> node, const double* position) {
+  const double *const a = position + 4 * std::ptrdiff_t{node[0]}, *const b = position + 4 * std::ptrdiff_t{node[1]};
+  return {{b[0] - a[0], b[1] - a[1], b[2] - a[2]}};
+}
+
+Quaternion<double> orientation_of(std::int32_t node, const double* orientation) {
+  const double* const q = orientation + 4 * std::ptrdiff_t{node};
+  return {q[0], q[1], q[2], q[3]};
+}
+
+/// A quaternion with its derivatives by a spin in global axes, directions `first`, first + 1, first + 2: (0, spin / 2) q.
+template <int N>
+Quaternion<Dual<N>> with_spin(const Quaternion<double>& q, int first) {
+  Quaternion<Dual<N>> result;
+  for (int i = 0; i < 4; ++i) result[i] = Dual<N>(q[i]);
+  for (int k = 0; k < 3; ++k) {
+    Quaternion<double> half{};
+    half[1 + k] = 0.5;
+    const auto change = product(half, q);
+    for (int i = 0; i < 4; ++i) result[i].derivative[first + k] = change[i];
+  }
+  return result;
+}
+
+}  // namespace
+
+BeamKinematics<double> BeamGroup::kinematics_at(std::int32_t element, const NodalMotion& motion) const {
+  Matrix3<double> e;
+  for (int i = 0; i < 9; ++i) e.component[i] = reference(element, frame + i);
+  const auto node = nodes(element);
+  return beam_kinematics(beam_axis(node, motion.position), orientation_of(node[0], motion.orientation),
+                         orientation_of(node[1], motion.orientation), e, 1.0 / reference(element, length));
+}
+
+BeamVector<double> BeamGroup::resultants_at(std::int32_t element, const BeamVector<double>& strain) const {
+  return resultants(strain, {reference(element, shear), reference(element, shear + 1), reference(element, shear + 2)});
+}
+
+bool BeamGroup::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
+                          std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const {
+  using Scalar = Dual<12>;
+  Matrix3<double> e;
+  for (int i = 0; i < 9; ++i) e.component[i] = reference(element, frame + i);
+  const auto node = nodes(element);
+  const auto axis_value = beam_axis(node, motion.position);
+  Vector3<Scalar> axis;
+  for (int c = 0; c < 3; ++c) {
+    axis[c] = Scalar(axis_value[c]);
+    axis[c].derivative[c] = -1.0;
+    axis[c].derivative[6 + c] = 1.0;
+  }
+  const auto k = beam_kinematics(axis, with_spin<12>(orientation_of(node[0], motion.orientation), 3),
+                                 with_spin<12>(orientation_of(node[1], motion.orientation), 9), e,
+                                 1.0 / reference(element, length));
+  const auto forces = beam_forces(
+      k, resultants(k.strain, {Scalar(reference(element, shear)), Scalar(reference(element, shear + 1)),
+                               Scalar(reference(element, shear + 2))}),
+      e);
+  new_history[0] = old_history[0];
+  for (int i = 0; i < 6; ++i) new_history[1 + i] = k.strain[i].value;
+  const auto put = [&](int row, const Scalar& value, double sign) {
+    force[row] = sign * value.value;
+    if (stiffness.empty()) return;
+    for (int column = 0; column < 12; ++column) stiffness[12 * row + column] = sign * value.derivative[column];
+  };
+  for (int c = 0; c < 3; ++c) {
+    put(c, forces.force[c], -1.0);
+    put(3 + c, forces.moment_a[c], 1.0);
+    put(6 + c, forces.force[c], 1.0);
+    put(9 + c, forces.moment_b[c], 1.0);
+  }
+  return true;
+}
+
+ElementEnergies BeamGroup::energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const {
+  const auto strain = kinematics_at(element, motion).strain;
+  const auto resultant = resultants_at(element, strain);
+  ElementEnergies result;
+  for (int i = 0; i < 6; ++i) result.strain += 0.5 * reference(element, length) * strain[i] * resultant[i];
+  result.viscous = history[0];
+  return result;
+}
+
+int BeamGroup::point_components(std::string_view variable) const {
+  if (variable == "S" || variable == "LE") return 6;
+  if (variable == "SF" || variable == "SM") return 3;
+  return variable == "MISES" ? 1 : 0;
+}
+
+/// SF: axial force, shear forces along n2 and n1; SM: moments about n1, n2 and the axis. S, LE: 11 along the axis, 12 from torsion.
+void BeamGroup::point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
+                             std::span<const double>, std::span<double> values) const {
+  const auto strain = kinematics_at(element, motion).strain;
+  const auto resultant = resultants_at(element, strain);
+  std::fill(values.begin(), values.end(), 0.0);
+  if (variable == "SF") {
+    values[0] = resultant[2];
+    values[1] = resultant[1];
+    values[2] = resultant[0];
+    return;
+  }
+  if (variable == "SM") {
+    std::copy_n(resultant.begin() + 3, 3, values.begin());
+    return;
+  }
+  const BeamPoint& point = section_data_.points[integration_point];
+  const double along = strain[2] + point.x2 * strain[3] - point.x1 * strain[4], twist = point.lever * strain[5];
+  const double poisson = 0.5 * section_data_.youngs_modulus / section_data_.shear_modulus - 1.0;
+  const double stress = section_data_.youngs_modulus * along, shearing = section_data_.shear_modulus * twist;
+  if (variable == "MISES") {
+    values[0] = std::sqrt(stress * stress + 3.0 * shearing * shearing);
+  } else {
+    const bool is_stress = variable == "S";
+    values[0] = is_stress ? stress : along;
+    if (!is_stress) values[1] = values[2] = -poisson * along;
+    values[3] = is_stress ? shearing : 0.5 * twist;
+  }
+}
+
+}  // namespace balocco
