@@ -54,17 +54,21 @@ BeamArea ring(double outer, double inner) {
   return {pi * (outer * outer - inner * inner), quarter, 0.0, quarter, 2.0 * quarter};
 }
 
+std::vector<Strip> box_strips(const std::vector<double>& d) {
+  const double a = d[0], b = d[1], t1 = d[2], t2 = d[3], t3 = d[4], t4 = d[5];
+  const double inside_height = b - t2 - t4, middle = 0.5 * (t4 - t2);
+  return {{0.0, 0.5 * (b - t2), a, t2},
+          {0.0, -0.5 * (b - t4), a, t4},
+          {0.5 * (a - t1), middle, t1, inside_height},
+          {-0.5 * (a - t3), middle, t3, inside_height}};
+}
+
 /// Bredt: J = 4 (enclosed area)^2 / integral of ds / t, on the middle line. Sides t1 (right), t2 (top), t3 (left), t4 (bottom).
 BeamArea box_area(const std::vector<double>& d) {
   const double a = d[0], b = d[1], t1 = d[2], t2 = d[3], t3 = d[4], t4 = d[5];
-  const double inside_width = a - t1 - t3, inside_height = b - t2 - t4;
   BeamPoint centroid;
-  BeamArea area = open_area({{0.0, 0.5 * (b - t2), a, t2},
-                             {0.0, -0.5 * (b - t4), a, t4},
-                             {0.5 * (a - t1), 0.5 * (t4 - t2), t1, inside_height},
-                             {-0.5 * (a - t3), 0.5 * (t4 - t2), t3, inside_height}},
-                            centroid);
-  const double width = inside_width + 0.5 * (t1 + t3), height = inside_height + 0.5 * (t2 + t4);
+  BeamArea area = open_area(box_strips(d), centroid);
+  const double width = a - 0.5 * (t1 + t3), height = b - 0.5 * (t2 + t4);
   area.torsion = 4.0 * std::pow(width * height, 2) / (height / t1 + width / t2 + height / t3 + width / t4);
   return area;
 }
@@ -108,6 +112,28 @@ std::vector<BeamPoint> stress_points(const BeamProfile& profile) {
   return {};
 }
 
+constexpr double gauss = 0.28867513459481287;  // 1 / (2 sqrt(3))
+constexpr std::array<double, 5> simpson{1.0 / 12.0, 1.0 / 3.0, 1.0 / 6.0, 1.0 / 3.0, 1.0 / 12.0};
+
+void add_strip(const Strip& s, std::vector<BeamFibre>& fibres) {
+  const bool wide = s.width > s.height;
+  for (int i = 0; i < 5; ++i)
+    for (const double across : {-gauss, gauss}) {
+      const double along = 0.25 * i - 0.5, area = 0.5 * simpson[i] * s.width * s.height;
+      fibres.push_back({s.x1 + s.width * (wide ? along : across), s.x2 + s.height * (wide ? across : along), 0.0, area});
+    }
+}
+
+void add_ring(double outer, double inner, std::vector<BeamFibre>& fibres) {
+  constexpr int angles = 8;
+  const double span = outer * outer - inner * inner;
+  for (const double s : {0.5 - gauss, 0.5 + gauss})
+    for (int i = 0; i < angles; ++i) {
+      const double r = std::sqrt(inner * inner + s * span), angle = 2.0 * pi * i / angles;
+      fibres.push_back({r * std::cos(angle), r * std::sin(angle), r, 0.5 * pi * span / angles});
+    }
+}
+
 /// Young's and the shear modulus of an isotropic elastic material, from its plane-stress stiffness.
 void set_moduli(const Model& model, const Section& section, BeamSection& beam) {
   const auto fail = [&](const std::string& what) {
@@ -116,12 +142,18 @@ void set_moduli(const Model& model, const Section& section, BeamSection& beam) {
   if (section.material < 0) fail("it names no material; add MATERIAL=NAME");
   const Material& material = model.materials[section.material];
   const MaterialLaw* law = find_material_law(material.law);
-  if (law == nullptr || law->line == nullptr || law->lamina_stiffness == nullptr || !material.options.empty())
-    fail(fmt::format("material {} is not linear elastic; beams take *ELASTIC alone", material.name));
+  if (law == nullptr || law->fibre == nullptr || law->lamina_stiffness == nullptr)
+    fail(fmt::format("material {} has no law for beams; give it *ELASTIC, with *PLASTIC if it yields", material.name));
   std::array<double, 9> q{};
   law->lamina_stiffness(material.parameters, q);
   beam.shear_modulus = q[8];
   beam.youngs_modulus = q[0] - q[1] * q[1] / q[4];
+  if (!material.options.empty()) {
+    beam.law = make_law<PointKind::fibre>(material);
+    beam.fibres = beam_fibres(section.beam);
+    beam.points.clear();
+    for (const auto& fibre : beam.fibres) beam.points.push_back({fibre.x1, fibre.x2, fibre.lever});
+  }
   beam.density = material.density;
   beam.damping_beta = material.damping_beta;
 }
@@ -151,6 +183,33 @@ double centroid_height(const BeamProfile& profile) {
   BeamPoint centroid;
   open_area(i_strips(profile.dimensions), centroid);
   return centroid.x2;
+}
+
+std::vector<BeamFibre> beam_fibres(const BeamProfile& profile) {
+  const auto& d = profile.dimensions;
+  std::vector<BeamFibre> fibres;
+  switch (profile.shape) {
+    case BeamProfile::Shape::general: break;
+    case BeamProfile::Shape::rectangle:
+      for (int i = 0; i < 5; ++i)
+        for (int j = 0; j < 5; ++j)
+          fibres.push_back({d[0] * (0.25 * i - 0.5), d[1] * (0.25 * j - 0.5), 0.0, simpson[i] * simpson[j] * d[0] * d[1]});
+      break;
+    case BeamProfile::Shape::circle: add_ring(d[0], 0.0, fibres); break;
+    case BeamProfile::Shape::pipe: add_ring(d[0], d[0] - d[1], fibres); break;
+    case BeamProfile::Shape::box:
+      for (const auto& strip : box_strips(d)) add_strip(strip, fibres);
+      break;
+    case BeamProfile::Shape::i_section: {
+      const double bottom = centroid_height(profile);
+      for (auto strip : i_strips(d)) {
+        strip.x2 -= bottom;
+        add_strip(strip, fibres);
+      }
+      break;
+    }
+  }
+  return fibres;
 }
 
 BeamSection beam_section(const Model& model, const Section& section) {

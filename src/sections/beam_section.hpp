@@ -2,8 +2,10 @@
 #pragma once
 
 #include <array>
+#include <memory>
 #include <vector>
 
+#include "materials/material_law.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -19,6 +21,11 @@ struct BeamPoint {
   double x1 = 0.0, x2 = 0.0, lever = 0.0;
 };
 
+/// A part of the section whose stress the material's law gives: strain E11 of stretch and bending, 2E12 = twist * lever.
+struct BeamFibre {
+  double x1 = 0.0, x2 = 0.0, lever = 0.0, area = 0.0;
+};
+
 /// Stiffness and inertia per length.
 struct BeamSection {
   BeamArea shape;
@@ -26,6 +33,9 @@ struct BeamSection {
   std::array<double, 2> shear_stiffness{};  // of shear along n1 and n2, shear factor included
   double density = 0.0, damping_beta = 0.0;
   std::vector<BeamPoint> points;
+  // Of materials that do more than *ELASTIC; shear, and torsion of profiles that are not round, stay elastic.
+  std::shared_ptr<const Law<PointKind::fibre>> law;
+  std::vector<BeamFibre> fibres;
 };
 
 /// The area of a profile. Torsion: rectangles by Saint-Venant's series, closed sections after Bredt, open ones as thin strips.
@@ -33,7 +43,11 @@ BeamArea beam_area(const BeamProfile& profile);
 /// Height of an I profile's centroid above its bottom.
 double centroid_height(const BeamProfile& profile);
 
-/// @throws InputError naming the section where the material is missing or not elastic, or the profile has no stiffness.
+/// Quadrature of a profile: Simpson's rule with five points along sides, two points of Gauss across walls; round profiles: Gauss in
+/// the square of the radius, eight angles. Exact for area and second moments, but for a general profile, which has none.
+std::vector<BeamFibre> beam_fibres(const BeamProfile& profile);
+
+/// @throws InputError naming the section where the material is missing or has no law for beams.
 BeamSection beam_section(const Model& model, const Section& section);
 
 /// n1, n2 and the axis, unit vectors, of an element from `a` to `b`: n2 is the axis times the given direction, n1 lies in its plane.

@@ -82,6 +82,8 @@ Model make_model(const Subject& subject, const Mesh& mesh) {
   section.kind = model.elements[0].type->section;
   section.material = 0;
   section.thickness = 0.1;
+  section.beam.shape = BeamProfile::Shape::rectangle;
+  section.beam.dimensions = {0.2, 0.1};
   model.sections.push_back(section);
   return model;
 }
@@ -101,14 +103,20 @@ void cycle_elements(benchmark::State& state, const Subject& subject) {
   for (std::int32_t row = 0; row < count; ++row) input.rows.push_back(row);
   const auto group = model.elements[0].type->make_group(input);
 
-  AlignedVector<double> position(4 * mesh.points.size() + 4, 0.0), velocity(position), force(position);
+  AlignedVector<double> position(4 * mesh.points.size() + 4, 0.0), velocity(position), force(position), orientation(position);
   for (std::size_t i = 0; i < mesh.points.size(); ++i) {
     for (int d = 0; d < 3; ++d)
       position[4 * i + d] = mesh.points[i][d] * (1.0 + 0.01 * d) + 0.01 * static_cast<double>((i * (7 + d)) % 11);
     force[4 * i + 3] = rounding_constant(1e3);
+    orientation[4 * i] = 1.0;
   }
+  AlignedVector<double> moment(force);
   std::vector<double> history = group->initial_history();
-  const ExplicitCycle cycle{{position.data(), velocity.data()}, {force.data()}, 1e-3, 0.06, 1.2};
+  const ExplicitCycle cycle{{position.data(), velocity.data(), orientation.data(), velocity.data()},
+                            {force.data(), moment.data()},
+                            1e-3,
+                            0.06,
+                            1.2};
   for (auto _ : state) benchmark::DoNotOptimize(group->add_forces(Portion::interior, cycle, history));
 
   const double cycles = static_cast<double>(state.iterations()) * count;
@@ -138,6 +146,7 @@ std::vector<Subject> subjects() {
     all.push_back({type, "neo-hooke", {0.5, 0.05}});
   }
   all.push_back({"T3D2", "elastic", {1000.0, 0.3}});
+  all.push_back({"B31", "elastic", {1000.0, 0.3}});
   return all;
 }
 

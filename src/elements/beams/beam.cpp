@@ -106,6 +106,26 @@ Pack BeamGroup::add_viscosity(std::int32_t first, const BeamVector<Pack>& strain
   return (4.0 * section_data_.damping_beta) * axial * axial + (4.0 * cycle.linear_bulk_viscosity) * axial;
 }
 
+/// The fibres take the place of the elastic section in stretch and bending, and of round profiles in torsion.
+void BeamGroup::add_fibres(std::int32_t first, const BeamVector<Pack>& strain, double increment, std::span<double> history,
+                           BeamVector<Pack>& resultant) const {
+  resultant[2] = resultant[3] = resultant[4] = Pack(0.0);
+  if (section_data_.fibres[0].lever > 0.0) resultant[5] = Pack(0.0);
+  PointBatch<PointKind::fibre> batch;
+  batch.count = pack_size;
+  batch.increment = increment;
+  batch.history_stride = padded_size_;
+  for (std::size_t i = 0; i < section_data_.fibres.size(); ++i) {
+    const BeamFibre& fibre = section_data_.fibres[i];
+    const Pack along = fibre_strain(strain, fibre);
+    store(along + 0.5 * along * along, batch.strain[0]);
+    store(fibre.lever * strain[5], batch.strain[1]);
+    batch.history = history.data() + fibre_row(static_cast<int>(i)) * std::ptrdiff_t{padded_size_} + first;
+    section_data_.law->stress(batch);
+    add_fibre(fibre, along, load(batch.stress[0]), load(batch.stress[1]), resultant);
+  }
+}
+
 void BeamGroup::add_pack(std::int32_t first, const ExplicitCycle& cycle, std::span<double> history,
                          StableIncrement& stable) const {
   const double* const data = record(first);
@@ -118,6 +138,7 @@ void BeamGroup::add_pack(std::int32_t first, const ExplicitCycle& cycle, std::sp
                                  gather_four(cycle.motion.orientation, node + 1, 2), e, Pack(1.0 / l));
   BeamVector<Pack> resultant = resultants(k.strain, {load(data + shear * pack_size), load(data + (shear + 1) * pack_size),
                                                      load(data + (shear + 2) * pack_size)});
+  if (section_data_.law) add_fibres(first, k.strain, cycle.increment, history, resultant);
   const Pack damping = add_viscosity(first, k.strain, cycle, history, resultant);
   const auto forces = beam_forces(k, resultant, e);
   scatter_subtract(Vector3<Pack>() - forces.force, target, 2, cycle.forces.force);

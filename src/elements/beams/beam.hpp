@@ -1,4 +1,4 @@
-// Beam B31: two nodes, finite rotations, flexible in shear; linear elastic sections (sections/beam_section.hpp).
+// Beam B31: two nodes, finite rotations, flexible in shear; elastic sections, or fibres with laws (sections/beam_section.hpp).
 //
 // The kernel's one integration point bends with the curvature of the middle alone. What the linear moment over the element adds to
 // the deflection, L^2 / (12 E I), is put to the shear flexibility (MacNeal's residual bending flexibility, Comput. Struct. 8 (1978)
@@ -14,13 +14,13 @@
 
 namespace balocco {
 
-/// History of an element: the energy dissipated by viscosity, then its six strains.
+/// History of an element: the energy dissipated by viscosity, its six strains, then those of the section's fibres.
 class BeamGroup final : public ElementGroup {
  public:
   /// @throws InputError if the section lacks a material or stiffness, n1 runs along the axis or the nodes coincide.
   explicit BeamGroup(const GroupInput& input);
 
-  int history_size() const override { return 7; }
+  int history_size() const override { return fibre_row(static_cast<int>(section_data_.fibres.size())); }
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
   /// At least the physical inertia, and so much that shear and bending never oscillate faster than waves along the axis:
@@ -48,13 +48,18 @@ class BeamGroup final : public ElementGroup {
   }
   const double* record(std::int32_t first) const { return records_.data() + first * rows; }
 
+  int fibre_row(int fibre) const { return 7 + (section_data_.law ? fibre * section_data_.law->history_size() : 0); }
   void set_reference(const Model& model, std::int32_t element);
   std::array<double, 3> element_shear_stiffness(double length) const;
   void set_inertia(std::int32_t element, const std::array<double, 3>& shear);
   template <class T>
   BeamVector<T> resultants(const BeamVector<T>& strain, const std::array<T, 3>& shear) const;
   BeamKinematics<double> kinematics_at(std::int32_t element, const NodalMotion& motion) const;
-  BeamVector<double> resultants_at(std::int32_t element, const BeamVector<double>& strain) const;
+  /// Resultants `increment` after the old `history` of the element, which is new on return.
+  template <class T>
+  BeamVector<T> response(std::int32_t element, const BeamVector<T>& strain, double increment, std::span<double> history) const;
+  void add_fibres(std::int32_t first, const BeamVector<Pack>& strain, double increment, std::span<double> history,
+                  BeamVector<Pack>& resultant) const;
   void add_pack(std::int32_t first, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
   Pack add_viscosity(std::int32_t first, const BeamVector<Pack>& strain, const ExplicitCycle& cycle, std::span<double> history,
                      BeamVector<Pack>& resultant) const;
@@ -73,6 +78,22 @@ BeamVector<T> BeamGroup::resultants(const BeamVector<T>& strain, const std::arra
           (e * shape.i11) * strain[3] - (e * shape.i12) * strain[4],
           (e * shape.i22) * strain[4] - (e * shape.i12) * strain[3],
           (section_data_.shear_modulus * shape.torsion) * strain[5]};
+}
+
+/// Longitudinal strain of a fibre: stretch of the axis and bending.
+template <class T, class Place>
+T fibre_strain(const BeamVector<T>& strain, const Place& at) {
+  return strain[2] + at.x2 * strain[3] - at.x1 * strain[4];
+}
+
+/// Adds what a fibre under second Piola-Kirchhoff stresses (S11, S12) pulls and twists with; `along` as fibre_strain gives it.
+template <class T>
+void add_fibre(const BeamFibre& fibre, const T& along, const T& axial, const T& shearing, BeamVector<T>& resultant) {
+  const T pull = fibre.area * (axial * (1.0 + along));
+  resultant[2] = resultant[2] + pull;
+  resultant[3] = resultant[3] + fibre.x2 * pull;
+  resultant[4] = resultant[4] - fibre.x1 * pull;
+  resultant[5] = resultant[5] + (fibre.area * fibre.lever) * shearing;
 }
 
 }  // namespace balocco

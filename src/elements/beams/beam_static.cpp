@@ -42,8 +42,37 @@ BeamKinematics<double> BeamGroup::kinematics_at(std::int32_t element, const Noda
                          orientation_of(node[1], motion.orientation), e, 1.0 / reference(element, length));
 }
 
-BeamVector<double> BeamGroup::resultants_at(std::int32_t element, const BeamVector<double>& strain) const {
-  return resultants(strain, {reference(element, shear), reference(element, shear + 1), reference(element, shear + 2)});
+namespace {
+
+/// A stress with the derivatives that its law's tangent gives it.
+double with_tangent(double stress, std::span<const double>, double, double) { return stress; }
+template <int N>
+Dual<N> with_tangent(double stress, std::span<const double> row, const Dual<N>& green, const Dual<N>& twist) {
+  return stress + row[0] * (green - green.value) + row[1] * (twist - twist.value);
+}
+
+}  // namespace
+
+template <class T>
+BeamVector<T> BeamGroup::response(std::int32_t element, const BeamVector<T>& strain, double increment,
+                                  std::span<double> history) const {
+  BeamVector<T> resultant = resultants<T>(
+      strain, {T(reference(element, shear)), T(reference(element, shear + 1)), T(reference(element, shear + 2))});
+  if (!section_data_.law) return resultant;
+  resultant[2] = resultant[3] = resultant[4] = T(0.0);
+  if (section_data_.fibres[0].lever > 0.0) resultant[5] = T(0.0);
+  for (std::size_t i = 0; i < section_data_.fibres.size(); ++i) {
+    const BeamFibre& fibre = section_data_.fibres[i];
+    const T along = fibre_strain(strain, fibre), green = along + 0.5 * along * along, twist = fibre.lever * strain[5];
+    std::array<double, 2> stress{};
+    std::array<double, 4> tangent{};
+    section_data_.law->tangent(std::array{value_of(green), value_of(twist)}, increment,
+                               history.subspan(fibre_row(static_cast<int>(i)), section_data_.law->history_size()), stress,
+                               tangent);
+    add_fibre<T>(fibre, along, with_tangent(stress[0], std::span(tangent).first(2), green, twist),
+                 with_tangent(stress[1], std::span(tangent).last(2), green, twist), resultant);
+  }
+  return resultant;
 }
 
 bool BeamGroup::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
@@ -62,11 +91,8 @@ bool BeamGroup::linearize(std::int32_t element, const NodalMotion& motion, std::
   const auto k = beam_kinematics(axis, with_spin<12>(orientation_of(node[0], motion.orientation), 3),
                                  with_spin<12>(orientation_of(node[1], motion.orientation), 9), e,
                                  1.0 / reference(element, length));
-  const auto forces = beam_forces(
-      k, resultants(k.strain, {Scalar(reference(element, shear)), Scalar(reference(element, shear + 1)),
-                               Scalar(reference(element, shear + 2))}),
-      e);
-  new_history[0] = old_history[0];
+  std::copy(old_history.begin(), old_history.end(), new_history.begin());
+  const auto forces = beam_forces(k, response(element, k.strain, quasi_static, new_history), e);
   for (int i = 0; i < 6; ++i) new_history[1 + i] = k.strain[i].value;
   const auto put = [&](int row, const Scalar& value, double sign) {
     force[row] = sign * value.value;
@@ -84,24 +110,39 @@ bool BeamGroup::linearize(std::int32_t element, const NodalMotion& motion, std::
 
 ElementEnergies BeamGroup::energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const {
   const auto strain = kinematics_at(element, motion).strain;
-  const auto resultant = resultants_at(element, strain);
+  const auto elastic = resultants<double>(
+      strain, {reference(element, shear), reference(element, shear + 1), reference(element, shear + 2)});
+  const double l = reference(element, length);
+  const bool twisting = section_data_.law && section_data_.fibres[0].lever > 0.0;
   ElementEnergies result;
-  for (int i = 0; i < 6; ++i) result.strain += 0.5 * reference(element, length) * strain[i] * resultant[i];
+  for (int i = 0; i < 6; ++i)
+    if (!section_data_.law || i < 2 || (i == 5 && !twisting)) result.strain += 0.5 * l * strain[i] * elastic[i];
   result.viscous = history[0];
+  for (std::size_t i = 0; i < section_data_.fibres.size(); ++i) {
+    const BeamFibre& fibre = section_data_.fibres[i];
+    const double along = fibre_strain(strain, fibre);
+    const auto density = section_data_.law->energy_density(
+        std::array{along + 0.5 * along * along, fibre.lever * strain[5]},
+        history.subspan(fibre_row(static_cast<int>(i)), section_data_.law->history_size()));
+    result.strain += l * fibre.area * density.recoverable;
+    result.plastic += l * fibre.area * density.plastic;
+    result.viscous += l * fibre.area * density.viscous;
+  }
   return result;
 }
 
 int BeamGroup::point_components(std::string_view variable) const {
   if (variable == "S" || variable == "LE") return 6;
   if (variable == "SF" || variable == "SM") return 3;
-  return variable == "MISES" ? 1 : 0;
+  return variable == "MISES" || (section_data_.law && history_scalar(*section_data_.law, variable) >= 0) ? 1 : 0;
 }
 
 /// SF: axial force, shear forces along n2 and n1; SM: moments about n1, n2 and the axis. S, LE: 11 along the axis, 12 from torsion.
 void BeamGroup::point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
-                             std::span<const double>, std::span<double> values) const {
+                             std::span<const double> history, std::span<double> values) const {
   const auto strain = kinematics_at(element, motion).strain;
-  const auto resultant = resultants_at(element, strain);
+  std::vector<double> own(history.begin(), history.end());
+  const auto resultant = response(element, strain, 0.0, own);
   std::fill(values.begin(), values.end(), 0.0);
   if (variable == "SF") {
     values[0] = resultant[2];
@@ -114,9 +155,20 @@ void BeamGroup::point_output(std::string_view variable, std::int32_t element, in
     return;
   }
   const BeamPoint& point = section_data_.points[integration_point];
-  const double along = strain[2] + point.x2 * strain[3] - point.x1 * strain[4], twist = point.lever * strain[5];
+  const double along = fibre_strain(strain, point), twist = point.lever * strain[5];
   const double poisson = 0.5 * section_data_.youngs_modulus / section_data_.shear_modulus - 1.0;
-  const double stress = section_data_.youngs_modulus * along, shearing = section_data_.shear_modulus * twist;
+  double stress = section_data_.youngs_modulus * along, shearing = section_data_.shear_modulus * twist;
+  if (const auto& law = section_data_.law) {
+    const auto of_fibre = std::span(own).subspan(fibre_row(integration_point), law->history_size());
+    if (const int row = history_scalar(*law, variable); row >= 0) {
+      values[0] = of_fibre[row];
+      return;
+    }
+    std::array<double, 2> stresses{};
+    law->tangent(std::array{along + 0.5 * along * along, twist}, 0.0, of_fibre, stresses, {});
+    stress = stresses[0] * (1.0 + along);
+    shearing = stresses[1];
+  }
   if (variable == "MISES") {
     values[0] = std::sqrt(stress * stress + 3.0 * shearing * shearing);
   } else {
