@@ -8,6 +8,7 @@
 
 #include "elements/element_type.hpp"
 #include "sections/membrane_section.hpp"
+#include "sections/shell_section.hpp"
 #include "materials/material_law.hpp"
 #include "math/tensor.hpp"
 #include "model/diagnostics.hpp"
@@ -75,6 +76,10 @@ class SectionModuli {
 
  private:
   double modulus(const Section& section) const {
+    if (section.kind == Section::Kind::shell) {
+      const ShellSection shell = shell_section(model_, section);
+      return std::max(shell.stiffness.membrane[0], shell.stiffness.membrane[4]) * shell.thickness;
+    }
     if (section.kind == Section::Kind::membrane) {
       const MembraneSection membrane = membrane_section(model_, section);
       return membrane.initial_modulus * membrane.thickness;
@@ -130,7 +135,7 @@ void add_face(const Model& model, const FaceRef& face, SectionModuli& moduli, Sh
 double stiffness_at_node(const Model& model, const ElementRef& element, double modulus) {
   const ElementTable& table = model.elements[element.table];
   if (table.type->section == Section::Kind::solid) return 0.125 * modulus * std::cbrt(element_volume(model, element));
-  if (table.type->section == Section::Kind::membrane) return 0.125 * modulus;
+  if (table.type->section == Section::Kind::membrane || table.type->section == Section::Kind::shell) return 0.125 * modulus;
   const auto* ends = &table.connectivity[element.row * table.type->nodes];
   const auto axis = at(model, ends[1]) - at(model, ends[0]);
   return 0.5 * modulus / std::sqrt(dot(axis, axis));

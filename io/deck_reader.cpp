@@ -9,6 +9,7 @@
 #include "deck/digest.hpp"
 #include "deck/groups.hpp"
 #include "deck/schedule.hpp"
+#include "deck/shell_sections.hpp"
 #include "deck/tokens.hpp"
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
@@ -96,6 +97,8 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
     found.errors.resize(std::min(found.errors.size(), Diagnostics::greatest_number_of_errors));
     throw InputError(std::move(found.errors));
   }
+  finish_shells(builder);
+  throw_if_wrong(diagnostics, tokens.files);
   finish_output(builder);  // asks the elements, so the model must be sound
   throw_if_wrong(diagnostics, tokens.files);
   auto warnings = diagnostics.warnings(tokens.files);

@@ -274,6 +274,25 @@ void Writer::beam_section(const Section& section, std::size_t row, const std::st
     line("*TRANSVERSE SHEAR STIFFNESS\n{}, {}", (*profile.shear_stiffness)[1], (*profile.shear_stiffness)[0]);
 }
 
+void Writer::shell(const Section& section, std::size_t row, const std::string& set) {
+  const ShellOptions& shell = section.shell;
+  std::string keyword = shell.general ? "SHELL GENERAL SECTION" : "SHELL SECTION";
+  if (shell.offset != 0.0) keyword += fmt::format(", OFFSET={}", shell.offset);
+  if (shell.nodal_thickness) keyword += ", NODAL THICKNESS";
+  if (shell.gauss) keyword += ", SECTION INTEGRATION=GAUSS";
+  if (shell.mass_per_area > 0.0) keyword += fmt::format(", DENSITY={}", shell.mass_per_area);
+  section_line(keyword.c_str(), section, row, set);
+  for (const auto& ply : section.plies)
+    line("{}, {}, {}, {}", ply.thickness, ply.points, quoted(model_.materials[ply.material].name), degrees_of(ply.angle));
+  if (!shell.stiffness.empty())
+    values(shell.stiffness);
+  else if (section.plies.empty())
+    shell.general ? line("{}", section.thickness) : line("{}, {}", section.thickness, shell.points);
+  if (shell.transverse_shear.empty()) return;
+  line("*TRANSVERSE SHEAR STIFFNESS");
+  values(shell.transverse_shear);
+}
+
 void Writer::section(std::size_t row) {
   const Section& section = model_.sections[row];
   std::vector<ElementRef> elements;
@@ -307,6 +326,8 @@ void Writer::section(std::size_t row) {
       return spring("SPRING", section, row, set);
     case Section::Kind::dashpot:
       return spring("DASHPOT", section, row, set);
+    case Section::Kind::shell:
+      return shell(section, row, set);
     case Section::Kind::rigid:
       return;  // *RIGID BODY names its elements
     case Section::Kind::membrane:

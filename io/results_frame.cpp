@@ -75,7 +75,8 @@ std::vector<FrameWriter::Field> FrameWriter::plan(const ResultSource& source, co
   }
   for (std::size_t table = 0; table < tables_.size(); ++table) {
     for (const auto& [name, precision, sets] : variables.elements) {
-      fields.push_back({Place::mean, name, table, 0, 1, precision, sets});
+      // Shells also tell what is in their lowest and highest layer; others have no components of that name.
+      for (const char* side : {"", "_BOT", "_TOP"}) fields.push_back({Place::mean, name + side, table, 0, 1, precision, sets});
     }
     for (const auto& [name, precision, sets] : variables.integration_points) {
       fields.push_back({Place::points, name, table, 0, 1, precision, sets});

@@ -19,6 +19,7 @@ const char* word(Section::Kind kind) {
   switch (kind) {
     case Section::Kind::solid: return "solid";
     case Section::Kind::membrane: return "membrane";
+    case Section::Kind::shell: return "shell";
     case Section::Kind::truss: return "truss";
     case Section::Kind::beam: return "beam";
     case Section::Kind::mass: return "mass";

@@ -13,6 +13,7 @@
 #include "deck/diagnostics.hpp"
 #include "deck/step_draft.hpp"
 #include "deck/tokens.hpp"
+#include "elements/shells/shell_normals.hpp"
 #include "model/model.hpp"
 
 namespace balocco::deck {
@@ -66,6 +67,7 @@ class Builder {
   std::set<std::int32_t> unsorted_node_sets;
   std::set<std::int32_t> absolute_amplitudes;  // *AMPLITUDE, VALUE=ABSOLUTE: magnitudes that refer to them become 1
   NodeSystem node_system;
+  GivenNormals normals;  // of shells
   std::set<std::size_t> without_field, without_history;                   // steps that asked for no output, FREQUENCY=0
   std::map<std::string, std::set<std::int32_t>> contact_pair_sets;        // *CONTACT PAIR, CPSET=
   std::map<std::int32_t, double> slip_tolerance;                          // interaction -> *FRICTION, SLIP TOLERANCE

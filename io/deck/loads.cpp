@@ -272,9 +272,9 @@ void read_surface_load(Builder& builder, const Block& block) {
   }
 }
 
-/// Face that Pn or P presses on; P on a membrane acts along its normal, so on the negative side.
+/// Face that Pn or P presses on; P on a membrane or shell acts along its normal, so on the negative side.
 int pressed_face(const ElementType& type, const std::string& label) {
-  if (type.section == Section::Kind::membrane) return label == "P" && type.faces.size() > 1 ? 1 : -1;
+  if (type.section == Section::Kind::membrane || type.section == Section::Kind::shell) return label == "P" && type.faces.size() > 1 ? 1 : -1;
   if (type.section != Section::Kind::solid || label.size() != 2) return -1;
   const int face = label[1] - '1';
   return face >= 0 && face < static_cast<int>(type.faces.size()) ? face : -1;

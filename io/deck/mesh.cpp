@@ -57,23 +57,27 @@ void read_nodes(Builder& builder, const Block& block) {
   for (const auto& line : block.lines) {
     split(line.text, fields);
     const auto id = fields.empty() ? std::nullopt : parse_integer(fields[0]);
-    Point given{};
-    bool good = id.has_value() && fields.size() <= 4;
+    std::array<double, 6> numbers{};  // coordinates, and the normal of shells there
+    bool good = id.has_value() && fields.size() <= 7;
     for (std::size_t i = 1; good && i < fields.size(); ++i) {
       const auto value = fields[i].empty() ? 0.0 : parse_real(fields[i]);
       good = value.has_value();
-      if (good) given[i - 1] = *value;
+      if (good) numbers[i - 1] = *value;
     }
+    const Point given{numbers[0], numbers[1], numbers[2]}, normal{numbers[3], numbers[4], numbers[5]};
     if (!good) {
       Row row(builder, block, line);  // the slow way, for its message
       row.integer(0, "node id");
-      for (int i = 1; i < 4; ++i) row.real_or(i, 0.0, "coordinate");
-      row.at_most(4);
+      for (int i = 1; i < 7; ++i) row.real_or(i, 0.0, i < 4 ? "coordinate" : "component of the normal");
+      row.at_most(7);
       continue;
     }
     const auto added = add_node(builder, block, line.location, *id,
                                 builder.scope->place(in_system(builder.node_system, from_system(system, given))));
     if (added && set >= 0) builder.add_to_node_set(set, *added);
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    if (added && length > 0.0)
+      builder.normals.at_node[*added] = builder.scope->turn({normal[0] / length, normal[1] / length, normal[2] / length});
   }
 }
 

@@ -16,6 +16,8 @@ const char* describe(Section::Kind kind) {
       return "*SOLID SECTION";
     case Section::Kind::membrane:
       return "*MEMBRANE SECTION";
+    case Section::Kind::shell:
+      return "*SHELL SECTION or *SHELL GENERAL SECTION";
     case Section::Kind::truss:
       return "*SOLID SECTION with an area";
     case Section::Kind::beam:

@@ -201,7 +201,7 @@ const RegisterKeyword surface{
 
 int face_of_label(const ElementType& type, std::string_view label) {
   const auto count = static_cast<int>(type.faces.size());
-  if (type.section == Section::Kind::membrane || type.section == Section::Kind::rigid) {
+  if (type.section == Section::Kind::membrane || type.section == Section::Kind::shell || type.section == Section::Kind::rigid) {
     if (label == "SPOS" && count > 0) return 0;
     return label == "SNEG" && count > 1 ? 1 : -1;
   }

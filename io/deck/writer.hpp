@@ -44,6 +44,7 @@ class Writer {
   void material_option(const MaterialOption& option);
   void sections();
   void spring(const char* keyword, const Section& section, std::size_t row, const std::string& set);
+  void shell(const Section& section, std::size_t row, const std::string& set);
   void section(std::size_t row);
   void beam_section(const Section& section, std::size_t row, const std::string& set);
   void section_line(const char* keyword, const Section& section, std::size_t row, const std::string& set);

@@ -196,6 +196,7 @@ void Checker::check_law(const Section& section, std::int32_t material) {
   const bool fits = section.kind == Section::Kind::solid   ? law->solid != nullptr
                     : section.kind == Section::Kind::truss ? law->line != nullptr
                     : section.kind == Section::Kind::beam  ? law->line != nullptr && law->lamina_stiffness != nullptr
+                    : section.kind == Section::Kind::shell ? law->plane != nullptr
                     : section.kind == Section::Kind::membrane
                         ? (composite ? law->lamina_stiffness != nullptr : law->plane != nullptr)
                         : true;
@@ -204,6 +205,7 @@ void Checker::check_law(const Section& section, std::int32_t material) {
           fmt::format("*{}: the law {} of material {} does not exist for these elements; choose another law",
                       section.kind == Section::Kind::membrane ? "MEMBRANE SECTION"
                       : section.kind == Section::Kind::beam   ? "BEAM SECTION"
+                      : section.kind == Section::Kind::shell  ? "SHELL SECTION"
                                                               : "SOLID SECTION",
                       law->name,
                       model_.materials[material].name));
