@@ -175,6 +175,8 @@ void read_law(Builder& builder, const Block& block) {
   material.parameters = *values;
   if (line < block.lines.size()) no_tables(builder, block, block.lines[line].location);
   warn_if_incompressible(builder, block, *law);
+  if (law->warning == nullptr) return;
+  if (const std::string text = law->warning(material); !text.empty()) builder.warning(block, block.location, text);
 }
 
 const OptionSpec* chosen_option(Builder& builder, const Block& block) {

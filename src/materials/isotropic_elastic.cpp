@@ -1,8 +1,9 @@
 #include "materials/isotropic_elastic.hpp"
 
-#include "materials/condensation.hpp"
 #include "materials/j2_plasticity.hpp"
 #include "materials/plane_elastic.hpp"
+#include "materials/viscoelastic.hpp"
+#include "model/diagnostics.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -13,6 +14,22 @@ PlaneElastic plane_form(std::span<const double> p) {
   return PlaneElastic::from_constants({p[0], p[0], p[1], p[0] / (2.0 * (1.0 + p[1])), p[1]});
 }
 
+/// The elastic forms are written by hand; with *PLASTIC or *VISCOELASTIC the thin ones are condensed from the solid.
+template <PointKind kind>
+std::unique_ptr<Law<kind>> form(const Material& m) {
+  const double young = m.parameters[0], poisson = m.parameters[1];
+  if (J2Plasticity::wanted(m)) {
+    if (relaxes(m)) throw InputError("*VISCOELASTIC: it does not go together with *PLASTIC; remove one of them");
+    return make_metal<kind>(m);
+  }
+  const IsotropicElastic solid = IsotropicElastic::from_young(young, poisson);
+  if (relaxes(m)) return make_form<kind>(Viscoelastic<IsotropicElastic>::of(m, solid, solid.mu, m.instantaneous));
+  if constexpr (kind == PointKind::solid) return make_solid_law(solid);
+  if constexpr (kind == PointKind::plane) return make_plane_law(plane_form(m.parameters));
+  if constexpr (kind == PointKind::line) return make_line_law(LineElastic{young, poisson});
+  if constexpr (kind == PointKind::fibre) return make_fibre_law(FibreElastic{young, poisson, solid.mu});
+}
+
 const RegisterLaw registered(
     {.name = "elastic",
      .keyword = "ELASTIC",
@@ -20,28 +37,11 @@ const RegisterLaw registered(
      .parameters = {{"young", 0.0, unbounded, "Young's modulus, force/area"},
                     {"poisson", -1.0, 0.5, "Poisson's ratio"}},
      .options = {"plastic", "plastic-kinematic", "plastic-combined", "plastic-johnson-cook", "cyclic-hardening",
-                 "rate-power-law", "rate-johnson-cook"},
-     .solid =
-         [](const Material& m) {
-           if (J2Plasticity::wanted(m)) return make_solid_law(J2Plasticity::of(m));
-           return make_solid_law(IsotropicElastic::from_young(m.parameters[0], m.parameters[1]));
-         },
-     .plane =
-         [](const Material& m) {
-           if (J2Plasticity::wanted(m)) return make_condensed_law<PointKind::plane>(J2Plasticity::of(m));
-           return make_plane_law(plane_form(m.parameters));
-         },
-     .line =
-         [](const Material& m) {
-           if (J2Plasticity::wanted(m)) return make_condensed_law<PointKind::line>(J2Plasticity::of(m));
-           return make_line_law(LineElastic{m.parameters[0], m.parameters[1]});
-         },
-     .fibre =
-         [](const Material& m) {
-           if (J2Plasticity::wanted(m)) return make_condensed_law<PointKind::fibre>(J2Plasticity::of(m));
-           const double young = m.parameters[0], poisson = m.parameters[1];
-           return make_fibre_law(FibreElastic{young, poisson, young / (2.0 * (1.0 + poisson))});
-         },
+                 "rate-power-law", "rate-johnson-cook", "prony"},
+     .solid = form<PointKind::solid>,
+     .plane = form<PointKind::plane>,
+     .line = form<PointKind::line>,
+     .fibre = form<PointKind::fibre>,
      .lamina_stiffness = [](std::span<const double> p, std::span<double, 9> q) { plane_form(p).copy_to(q); }});
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "materials/condensation.hpp"
 #include "materials/material_option.hpp"
 #include "model/diagnostics.hpp"
 #include "model/model.hpp"
@@ -89,5 +90,17 @@ J2Plasticity J2Plasticity::of(const Material& material) {
   }
   return law;
 }
+
+template <PointKind kind>
+std::unique_ptr<Law<kind>> make_metal(const Material& material) {
+  if constexpr (kind == PointKind::solid)
+    return make_solid_law(J2Plasticity::of(material));
+  else
+    return make_condensed_law<kind>(J2Plasticity::of(material));
+}
+template std::unique_ptr<Law<PointKind::solid>> make_metal(const Material&);
+template std::unique_ptr<Law<PointKind::plane>> make_metal(const Material&);
+template std::unique_ptr<Law<PointKind::line>> make_metal(const Material&);
+template std::unique_ptr<Law<PointKind::fibre>> make_metal(const Material&);
 
 }  // namespace balocco

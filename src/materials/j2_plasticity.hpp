@@ -59,14 +59,21 @@ struct J2Plasticity {
     const Elastic<T> elastic = elastic_strain(f, state.plastic);
     const T volume = trace(elastic.strain);
     SymmetricTensor<T> deviator = T(2.0 * shear) * elastic.strain.plus_identity((-1.0 / 3.0) * volume);
-    if (increment != 0.0 || !flow.depends_on_rate()) flow_back(deviator, state, increment);
+    if (increment != 0.0 || !flow.depends_on_rate()) flow_back(elastic.strain, deviator, state, increment);
 
-    // Second Piola-Kirchhoff stress of the intermediate configuration, Ce^-1 T; Fe and Fp are still those of the trial:
-    // flow along the stress does not turn the elastic rotation.
+    // U^-1 T U^-1 = Ce^-1 T where they commute; Fe = R U and Fp are still those of the trial: flow does not change the
+    // elastic rotation R.
     const SymmetricTensor<T> total = deviator.plus_identity(bulk * volume);
-    const SymmetricTensor<T> metric = inverse((T(2.0) * elastic.green).plus_identity(T(1.0)));
-    const SymmetricTensor<T> second = symmetric_part(full(metric) * full(total));
-    const Matrix3<T> left = elastic.gradient * full(second);
+    Matrix3<T> second;
+    if (back_stresses.empty()) {
+      const SymmetricTensor<T> metric = inverse((T(2.0) * elastic.green).plus_identity(T(1.0)));
+      second = full(commuting_product(metric, total));
+    } else {
+      const Matrix3<T> inverse_stretch =
+          full(exponential_less_identity(T(-1.0) * elastic.strain).plus_identity(T(1.0)));
+      second = inverse_stretch * full(total) * inverse_stretch;
+    }
+    const Matrix3<T> left = elastic.gradient * second;
     return left + left * elastic.trial_plastic_transposed;
   }
 
@@ -141,12 +148,26 @@ struct J2Plasticity {
   }
 
   template <class T>
-  void flow_back(SymmetricTensor<T>& deviator, State<T>& state, double increment) const;
+  void flow_back(const SymmetricTensor<T>& trial_strain, SymmetricTensor<T>& deviator, State<T>& state,
+                 double increment) const;
+  /// exp(-dp n), the change of Fp^-1, less the identity; with back stresses, which turn the flow away from the trial
+  /// strain E, what leads to the elastic strain E - dp n all the same: exp(-E) exp(E - dp n).
+  template <class V>
+  Matrix3<V> plastic_step(const SymmetricTensor<V>& trial_strain, const SymmetricTensor<V>& flowed) const {
+    if (back_stresses.empty()) return full(exponential_less_identity(V(-1.0) * flowed));
+    const Matrix3<V> a = full(exponential_less_identity(V(-1.0) * trial_strain));
+    const Matrix3<V> b = full(exponential_less_identity(trial_strain - flowed));
+    return a + b + a * b;
+  }
   /// Newton's method within a bracket; lanes that have arrived stay where they are, so that a lane equals the scalar.
   template <class V>
   V plastic_increment(const SymmetricTensor<V>& deviator, const State<V>& state, double increment,
                       const V& trial_mises, const auto& yields) const;
 };
+
+/// The form of a metal's law. @throws InputError if the options of the material do not fit together
+template <PointKind kind>
+std::unique_ptr<Law<kind>> make_metal(const Material& material);
 
 namespace j2_detail {
 
@@ -190,7 +211,8 @@ V J2Plasticity::plastic_increment(const SymmetricTensor<V>& deviator, const Stat
 }
 
 template <class T>
-void J2Plasticity::flow_back(SymmetricTensor<T>& deviator, State<T>& state, double increment) const {
+void J2Plasticity::flow_back(const SymmetricTensor<T>& trial_strain, SymmetricTensor<T>& deviator, State<T>& state,
+                             double increment) const {
   using V = std::decay_t<decltype(value_of(state.dissipation))>;
   const auto trial = relative(deviator, state, V(0.0));
   State<V> old;
@@ -225,12 +247,9 @@ void J2Plasticity::flow_back(SymmetricTensor<T>& deviator, State<T>& state, doub
   state.dissipation = state.dissipation + flowed * along;
   state.equivalent_plastic_strain = state.equivalent_plastic_strain + flowed;
 
-  // Fp^-1 <- Fp^-1 exp(-dp n). Nothing takes derivatives of the new state.
-  const SymmetricTensor<V> exponent = (-1.5 * dp) * j2_detail::values(unit);
-  const SymmetricTensor<V> growth = exponential_less_identity(exponent);
-  SymmetricTensor<T> change;
-  for (int i = 0; i < 6; ++i) change.component[i] = T(growth.component[i]);
-  const Matrix3<T> step = full(change);
+  const Matrix3<V> values = plastic_step(j2_detail::values(trial_strain), V(1.5 * dp) * j2_detail::values(unit));
+  Matrix3<T> step;  // nothing takes derivatives of the new state
+  for (int i = 0; i < 9; ++i) step.component[i] = T(V(select(yields, values.component[i], V(0.0))));
   state.plastic = state.plastic + step + state.plastic * step;
 }
 

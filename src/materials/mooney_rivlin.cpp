@@ -1,6 +1,7 @@
 #include "materials/mooney_rivlin.hpp"
 
-#include "materials/plane_elastic.hpp"
+#include "materials/condensation.hpp"
+#include "materials/relaxing_rubber.hpp"
 #include "materials/rubber_plane_stress.hpp"
 #include "model/model.hpp"
 
@@ -14,9 +15,14 @@ RubberConstants constants(Parameters p) {
   return {p[0], p[1], bulk_modulus(parameter(p, 2), 2.0 * (p[0] + p[1]))};
 }
 
-MooneyRivlin solid_form(Parameters p) {
-  const RubberConstants c = constants(p);
-  return {c.c10, c.c01, c.bulk};
+template <PointKind kind>
+std::unique_ptr<Law<kind>> form(const Material& m) {
+  const RubberConstants c = constants(m.parameters);
+  if (relaxes(m)) return relaxing_rubber<kind>(m, c);
+  if constexpr (kind == PointKind::solid) return make_solid_law(MooneyRivlin{c.c10, c.c01, c.bulk});
+  if constexpr (kind == PointKind::plane) return make_plane_law(RubberPlane{c});
+  if constexpr (kind == PointKind::line) return make_line_law(RubberLine{c});
+  if constexpr (kind == PointKind::fibre) return make_condensed_law<kind>(MooneyRivlin{c.c10, c.c01, c.bulk});
 }
 
 const RegisterLaw registered(
@@ -26,9 +32,11 @@ const RegisterLaw registered(
      .parameters = {{"C10", 0.0, unbounded, "first coefficient, force/area; initial shear modulus is 2 (C10 + C01)"},
                     {"C01", from_zero, unbounded, "second coefficient, force/area"},
                     {"D1", from_zero, unbounded, "2 / bulk modulus, area/force; 0: bulk modulus = 20 x shear modulus"}},
-     .solid = [](const Material& m) { return make_solid_law(solid_form(m.parameters)); },
-     .plane = [](const Material& m) { return make_plane_law(RubberPlane{constants(m.parameters)}); },
-     .line = [](const Material& m) { return make_line_law(RubberLine{constants(m.parameters)}); }});
+     .options = {"prony"},
+     .solid = form<PointKind::solid>,
+     .plane = form<PointKind::plane>,
+     .line = form<PointKind::line>,
+     .fibre = form<PointKind::fibre>});
 
 }  // namespace
 

@@ -3,6 +3,7 @@
 
 #include "materials/law_of.hpp"
 #include "materials/neo_hooke.hpp"
+#include "materials/rubber_bound.hpp"
 #include "materials/stretch.hpp"
 #include "math/inverse_cube_root.hpp"
 
@@ -30,32 +31,11 @@ struct MooneyRivlin {
     return stress;
   }
 
-  // As in NeoHooke; the second term, with X = G G^T, G = cof F, L = dF F^-1, n = |F^-1|, gives
-  //   C01 J^-4/3 [ (4/9) I2 t^2 - (8/3) t (L : X) - (2/3) I2 tr(L L) + 4 (L L) : X + 2 |L^T G|^2 ],
-  // where L : X = (I2/3) t + y, |y| <= eta |dF|, eta^2 = ((4/9) I2^3 - (5/3) I1 I2 J^2 + 3 J^4) / J^2,
-  // X = I2/3 I + Y, |Y|_2 <= sqrt(2/3) |Y| with |Y|^2 = (2/3) I2^2 - 2 I1 J^2, and |L^T G| <= J n^2 |dF|.
   template <class T>
   TangentBound<T> bound(const Matrix3<T>& f) const {
     const Invariants<T> c = invariants(f);
-    const T root = inverse_cube_root(c.jacobian);
-    const T j2 = root * root, inverse_square = (root * root * root) * (root * root * root);
-    const T square = c.jacobian * c.jacobian;
-    const T a = c10 * j2, b = c01 * (j2 * j2), size_a = absolute(a), size_b = absolute(b);
-    const T trace_of_inverse = c.second * inverse_square;
-    const T zero = T(0.0);
-    const T eta1 = square_root(maximum(c.first * ((1.0 / 9.0) * (c.first * trace_of_inverse) - 1.0), zero));
-    const T cube = (4.0 / 9.0) * (c.second * c.second * c.second) - (5.0 / 3.0) * (c.first * c.second * square);
-    const T eta2 = square_root(maximum((cube + 3.0 * (square * square)) * inverse_square, zero));
-    const T deviator =
-        square_root(maximum((4.0 / 9.0) * (c.second * c.second) - (4.0 / 3.0) * (c.first * square), zero));
-    const T n2 = largest_eigenvalue_bound(trace_of_inverse, c.first * inverse_square);
-    const T k = (2.0 / 3.0) * (a * c.first + b * c.second) - bulk * ((c.jacobian - 1.0) * c.jacobian);
-    const T cross = size_a * eta1 + size_b * eta2;
-    const T volumetric = bulk * ((2.0 * c.jacobian - 1.0) * c.jacobian) - (4.0 / 9.0) * (a * c.first + b * c.second) +
-                         (4.0 / 3.0) * cross;
-    const T shear =
-        size_a + 0.5 * (absolute(k) * n2) + (2.0 / 3.0) * cross + size_b * (square * (n2 * n2) + 2.0 * (n2 * deviator));
-    return {maximum(volumetric, zero), shear};
+    const T slope = bulk * ((c.jacobian - 1.0) * c.jacobian), curvature = bulk * ((2.0 * c.jacobian - 1.0) * c.jacobian);
+    return rubber_bound(c, inverse_cube_root(c.jacobian), c10, c01, slope, curvature).linear;
   }
 
   double energy(const Matrix3<double>& f) const {

@@ -9,7 +9,7 @@
 
 #include "elements/element_type.hpp"
 #include "elements/solids/solid_jacobian.hpp"
-#include "materials/material_law.hpp"
+#include "materials/material_option.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -50,6 +50,7 @@ class Checker {
   void check_element(ElementRef element);
   void check_jacobian(ElementRef element, double tolerance);
   void check_materials();
+  void check_options(const Material& material, const MaterialLaw& law);
   void check_laws_of_sections();
   void check_law(const Section& section, std::int32_t material);
   void check_rigid_bodies();
@@ -180,12 +181,28 @@ void Checker::check_materials() {
             fmt::format("*MATERIAL: material {} has the unknown law {}", material.name, material.law));
       continue;
     }
+    check_options(material, *law);
     try {  // conditions between parameters, such as a positive definite stiffness, are the law's own business
       make_law<PointKind::solid>(material);
       make_law<PointKind::plane>(material);
     } catch (const InputError& trouble) {
       error(material.location, fmt::format("*MATERIAL: material {}: {}", material.name, trouble.what()));
     }
+  }
+}
+
+void Checker::check_options(const Material& material, const MaterialLaw& law) {
+  bool plastic = false;
+  for (const auto& option : material.options) plastic |= find_material_option(option.name)->keyword == "PLASTIC";
+  for (const auto& option : material.options) {
+    const std::string& keyword = find_material_option(option.name)->keyword;
+    if (std::ranges::find(law.options, option.name) == law.options.end())
+      error(material.location, fmt::format("*{}: the law {} of material {} cannot take it; {}", keyword, law.name,
+                                           material.name,
+                                           law.options.empty() ? "remove it" : "give another law or remove it"));
+    else if (!plastic && keyword != "VISCOELASTIC")
+      error(material.location,
+            fmt::format("*{}: material {} has no *PLASTIC, to which it belongs; add that", keyword, material.name));
   }
 }
 
