@@ -27,10 +27,19 @@ struct Subject {
 std::ostream& operator<<(std::ostream& out, const Subject& s) { return out << s.name; }
 
 Material steel(std::vector<MaterialOption> options) {
-  return {.name = "STEEL", .law = "elastic", .parameters = {200.0, 0.3}, .options = std::move(options), .location = {}};
+  return {.name = "STEEL",
+          .law = "elastic",
+          .parameters = {200.0, 0.3},
+          .options = std::move(options),
+          .location = {}};
 }
 MaterialOption table() { return {"plastic", {0.0}, {{0.4, 0.0}, {0.5, 0.02}, {0.6, 0.1}, {0.7, 0.5}}}; }
 MaterialOption chaboche() { return {"plastic-combined", {2.0}, {{0.3, 20.0, 100.0, 2.0, 5.0}}}; }
+
+Material rubber(const std::string& law, std::vector<double> parameters, std::vector<MaterialOption> options = {}) {
+  return {.name = "RUBBER", .law = law, .parameters = std::move(parameters), .options = std::move(options), .location = {}};
+}
+MaterialOption prony() { return {"prony", {}, {{0.3, 0.0, 1e-3}, {0.2, 0.0, 1e-2}}}; }
 
 std::vector<Subject> subjects() {
   return {
@@ -41,6 +50,12 @@ std::vector<Subject> subjects() {
       {"power-law", steel({table(), {"rate-power-law", {}, {{40.0, 5.0}}}}), 0.05, 1e-3},
       {"johnson-cook", steel({{"plastic-johnson-cook", {}, {{0.4, 0.3, 0.3}}}, {"rate-johnson-cook", {}, {{0.02, 1.0}}}}),
        0.05, 1e-3},
+      {"yeoh", rubber("yeoh", {0.5, -0.05, 0.01, 0.05, 0.0, 0.0}), 0.5, quasi_static},
+      {"polynomial", rubber("polynomial-2", {0.4, 0.1, 0.02, 0.01, -0.005, 0.05, 0.3}), 0.4, quasi_static},
+      {"ogden", rubber("ogden-2", {0.8, 2.5, -0.1, -1.5, 0.05, 0.0}), 0.5, quasi_static},
+      {"relaxing-elastic", rubber("elastic", {3.0, 0.45}, {prony()}), 0.02, 5e-3},
+      {"relaxing-neo-hooke", rubber("neo-hooke", {0.5, 0.05}, {prony()}), 0.05, 5e-3},
+      {"relaxing-ogden", rubber("ogden-1", {1.0, 3.0, 0.05}, {prony()}), 0.05, 5e-3},
       {"rate-table", steel({table(), {"plastic", {100.0}, {{0.6, 0.0}, {0.9, 0.5}}}}), 0.05, 1e-3},
   };
 }
@@ -230,6 +245,61 @@ TEST(Metal, PowerLawRaisesTheYieldStress) {
     tau = line.move(&strain, increment)[0] * std::exp(2.0 * e);
   }
   EXPECT_NEAR(tau, 0.4 * (1.0 + std::pow(rate / 40.0, 0.2)), 1e-6);
+}
+
+/// VERIFY UNIAX, bulk modulus 1e5 shear moduli: nominal stress 2 (l - l^-2) W'(I1); Ogden with alpha = 2 is neo-Hooke.
+TEST(Rubber, UniaxialIsTheClosedForm) {
+  struct Row {
+    Material material;
+    double stretch, nominal;
+  };
+  for (const Row& row : {Row{rubber("yeoh", {0.5, -0.05, 0.01, 2e-5, 0.0, 0.0}), 1.5, 0.95396},
+                         Row{rubber("yeoh", {0.5, -0.05, 0.01, 2e-5, 0.0, 0.0}), 0.7, -1.25742},
+                         Row{rubber("ogden-1", {1.0, 2.0, 2e-5}), 1.5, 1.05556},
+                         Row{rubber("polynomial-1", {0.4, 0.1, 2e-5}), 0.7, -1.45574},
+                         Row{rubber("reduced-polynomial-2", {0.5, -0.05, 2e-5, 0.0}), 1.0, 0.0}}) {
+    Driven<PointKind::line> line(row.material);
+    const double strain = 0.5 * (row.stretch * row.stretch - 1.0);
+    EXPECT_NEAR(line.move(&strain, quasi_static)[0] * row.stretch, row.nominal, 1e-4) << row.material.law << row.stretch;
+  }
+}
+
+/// A sudden shear held: stress over the first is 1 - sum g (1 - exp(-t / tau)); the first one is that of the
+/// instantaneous modulus, which MODULI chooses; statics give the long term at once.
+TEST(Rubber, RelaxationIsTheClosedForm) {
+  for (const bool instantaneous : {false, true}) {
+    Material material = rubber("neo-hooke", {0.5, 0.05}, {prony()});
+    material.instantaneous = instantaneous;
+    Driven<PointKind::solid> point(material), slow(material);
+    Matrix f = Matrix::Identity();
+    f(0, 1) = 0.1;
+    const double first = point.move(f.data(), 1e-12)[1];
+    EXPECT_NEAR(first, (instantaneous ? 1.0 : 2.0) * 0.1, 1e-8);
+    double now = 0.0;
+    for (int i = 0; i < 10; ++i) now = point.move(f.data(), 5e-4)[1];
+    const double t = 5e-3;
+    EXPECT_NEAR(now / first, 1.0 - 0.3 * (1.0 - std::exp(-t / 1e-3)) - 0.2 * (1.0 - std::exp(-t / 1e-2)), 1e-8);
+    EXPECT_NEAR(slow.move(f.data(), quasi_static)[1] / first, 0.5, 1e-8);
+    const EnergyDensity e = point.law->energy_density(std::span<const double, 9>(f.data(), 9), point.history);
+    EXPECT_NEAR(e.recoverable + e.viscous, 0.5 * first * 0.1, 1e-3 * first);
+  }
+}
+
+TEST(Rubber, UnstableCoefficientsAreTold) {
+  const auto warn = [](const Material& m) { return find_material_law(m.law)->warning(m); };
+  EXPECT_EQ(warn(rubber("yeoh", {0.5, 0.0, 0.0, 0.05, 0.0, 0.0})), "");
+  EXPECT_EQ(warn(rubber("ogden-1", {1.0, 2.0, 0.05})), "");
+  EXPECT_NE(warn(rubber("yeoh", {0.5, -0.1, 0.0, 0.05, 0.0, 0.0})).find("uniaxial tension beyond"), std::string::npos);
+}
+
+/// Condensed thin forms equal those written by hand.
+TEST(Rubber, CondensedFormsAreTheHandWritten) {
+  const double strain[3] = {0.3, -0.1, 0.2};
+  Driven<PointKind::plane> hand(rubber("mooney-rivlin", {0.4, 0.1, 0.05})), condensed(rubber("polynomial-1", {0.4, 0.1, 0.05}));
+  std::array<double, 9> a, b;
+  const auto of_hand = hand.move(strain, 0.0, a.data()), of_condensed = condensed.move(strain, 0.0, b.data());
+  EXPECT_LT((of_hand - of_condensed).norm(), 1e-12);
+  for (int i = 0; i < 9; ++i) EXPECT_NEAR(a[i], b[i], 1e-11);
 }
 
 TEST(Metal, TablesThatMakeNoSenseAreRefused) {
