@@ -9,6 +9,7 @@
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "materials/material_option.hpp"
+#include "materials/rubber_stability.hpp"
 
 namespace balocco::deck {
 
@@ -158,6 +159,14 @@ void warn_if_incompressible(Builder& builder, const Block& block, const Material
   }
 }
 
+void warn_if_unstable(Builder& builder, const Block& block) {
+  try {
+    const std::string text = unstable_range(*make_law<PointKind::solid>(current(builder)));
+    if (!text.empty()) builder.warning(block, block.location, text);
+  } catch (const InputError&) {  // told when all of the material is known
+  }
+}
+
 void read_law(Builder& builder, const Block& block) {
   const MaterialLaw* law = chosen_law(builder, block);
   if (law == nullptr) return;
@@ -175,8 +184,7 @@ void read_law(Builder& builder, const Block& block) {
   material.parameters = *values;
   if (line < block.lines.size()) no_tables(builder, block, block.lines[line].location);
   warn_if_incompressible(builder, block, *law);
-  if (law->warning == nullptr) return;
-  if (const std::string text = law->warning(material); !text.empty()) builder.warning(block, block.location, text);
+  if (block.keyword == "HYPERELASTIC") warn_if_unstable(builder, block);
 }
 
 const OptionSpec* chosen_option(Builder& builder, const Block& block) {

@@ -123,8 +123,6 @@ struct MaterialLaw {
   void (*lamina_stiffness)(std::span<const double> parameters, std::span<double, 9> stiffness) = nullptr;
   /// Moduli G13 and G23 of transverse shear in shells; null: both are the shear modulus in the plane, dS12 / d(2E12) at rest.
   std::array<double, 2> (*transverse_shear)(std::span<const double> parameters) = nullptr;
-  /// A sentence about parameters that are allowed but unwise, or ""; null: nothing to say.
-  std::string (*warning)(const Material&) = nullptr;
 
   template <PointKind kind>
   LawMaker<kind> maker() const {

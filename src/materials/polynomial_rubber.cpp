@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include "materials/relaxing_rubber.hpp"
-#include "materials/rubber_stability.hpp"
 #include "materials/viscoelastic.hpp"
 #include "model/model.hpp"
 
@@ -73,11 +72,6 @@ std::unique_ptr<Law<kind>> form(const Material& m) {
   return relaxes(m) ? relaxing<kind>(m, law) : make_form<kind>(law);
 }
 
-std::string warning(const Material& m) {
-  const PolynomialRubber law = rubber(m);
-  return unstable_range([&](const Matrix3<double>& f) { return law.stress(f); });
-}
-
 MaterialLaw entry(std::string name, std::string variant, int order, const Arrangement& a) {
   return {.name = std::move(name),
           .keyword = "HYPERELASTIC",
@@ -88,8 +82,7 @@ MaterialLaw entry(std::string name, std::string variant, int order, const Arrang
           .solid = form<PointKind::solid>,
           .plane = form<PointKind::plane>,
           .line = form<PointKind::line>,
-          .fibre = form<PointKind::fibre>,
-          .warning = warning};
+          .fibre = form<PointKind::fibre>};
 }
 
 const RegisterLaw yeoh(entry("yeoh", "YEOH", 0, reduced(3)));

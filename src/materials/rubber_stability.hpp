@@ -1,15 +1,14 @@
 // Drucker's condition for rubber: stress must rise with logarithmic strain in every direction of plane stress.
 #pragma once
 
-#include <functional>
 #include <string>
 
-#include "math/tensor.hpp"
+#include "materials/material_law.hpp"
 
 namespace balocco {
 
 /// Looks at nominal strains between -0.8 and 5 in uniaxial, equibiaxial and planar tension and compression of the
 /// incompressible material. @return "" or a sentence with the strains beyond which the law is unstable
-std::string unstable_range(const std::function<Matrix3<double>(const Matrix3<double>&)>& first_piola);
+std::string unstable_range(const Law<PointKind::solid>& law);
 
 }  // namespace balocco

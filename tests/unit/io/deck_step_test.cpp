@@ -193,7 +193,11 @@ const std::string everything =
     "0., 0.\n0., 1.\n"
     "*ORIENTATION, NAME=LOCAL\n0., 1., 0., -1., 0., 0.\n3, 20.\n*TRANSFORM, NSET=ALLN, TYPE=C\n0., 0., 0., 0., 0., 1.\n"
     "*MATERIAL, NAME=\"SOFT RUBBER\"\n*HYPERELASTIC, MOONEY-RIVLIN\n0.4, 0.1, 0.02\n*DENSITY\n1.1E-9\n*DAMPING, "
-    "ALPHA=3., BETA=1E-5\n"
+    "ALPHA=3., BETA=1E-5\n*VISCOELASTIC, TIME=PRONY\n0.3, 0., 0.1\n0.2, , 1.\n"
+    "*MATERIAL, NAME=SHEET\n*ELASTIC\n210000., 0.3\n*PLASTIC\n300.\n400., 0.2\n*PLASTIC, RATE=100.\n350.\n500., 0.2\n"
+    "*MATERIAL, NAME=CYCLIC\n*ELASTIC\n210000., 0.3\n*PLASTIC, HARDENING=COMBINED, DATA TYPE=PARAMETERS, NUMBER "
+    "BACKSTRESSES=2\n300., 2000., 20., 500., 1.\n*CYCLIC HARDENING, PARAMETERS\n300., 50., 4.\n"
+    "*MATERIAL, NAME=TREAD\n*HYPERELASTIC, OGDEN, N=2, MODULI=INSTANTANEOUS\n1., 2., -0.1, -2., 0.02\n"
     "*ELEMENT, TYPE=M3D4, ELSET=SKIN\n10, 5, 6, 7, 8\n*MEMBRANE SECTION, ELSET=SKIN, COMPOSITE, "
     "ORIENTATION=LOCAL\n0.5, , STEEL, 20.\n0.25, , STEEL, -20.\n"
     "*ELEMENT, TYPE=MASS, ELSET=HUB\n20, 100\n*MASS, ELSET=HUB\n3.5\n*INITIAL CONDITIONS, TYPE=ROTATING "
@@ -227,7 +231,17 @@ TEST(DeckWriter, WhatIsWrittenReadsBackTheSame) {
     EXPECT_EQ(again.elements[t].section, model.elements[t].section);
   }
   EXPECT_EQ(again.sections[1].plies[1].angle, model.sections[1].plies[1].angle);
-  EXPECT_EQ(again.materials[1].parameters, model.materials[1].parameters);
+  ASSERT_EQ(again.materials.size(), model.materials.size());
+  for (std::size_t m = 0; m < model.materials.size(); ++m) {
+    EXPECT_EQ(again.materials[m].parameters, model.materials[m].parameters);
+    ASSERT_EQ(again.materials[m].options.size(), model.materials[m].options.size());
+    for (std::size_t k = 0; k < model.materials[m].options.size(); ++k)
+      EXPECT_EQ(again.materials[m].options[k].rows, model.materials[m].options[k].rows);
+  }
+  EXPECT_EQ(model.materials[2].options[1].settings[0], 100.0);
+  EXPECT_EQ(model.materials[3].options[0].rows[0].size(), 5u);
+  EXPECT_EQ(again.materials[4].law, "ogden-2");
+  EXPECT_TRUE(again.materials[4].instantaneous);
   ASSERT_EQ(again.steps.size(), 2u);
   EXPECT_EQ(again.steps[0].boundary.size(), model.steps[0].boundary.size());
   EXPECT_EQ(again.steps[1].concentrated_loads[0].previous, 2.0);
