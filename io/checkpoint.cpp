@@ -206,6 +206,7 @@ void write_header(const std::string& path, const Model& model, const State& stat
   file.set_attribute("/", "increment", step_finished ? std::int64_t{0} : state.increment);
   file.set_attribute("/", "dynamic", static_cast<std::int64_t>(state.dynamic));
   file.set_attribute("/", "time_increment", state.time_increment);
+  file.set_attribute("/", "linear", static_cast<std::int64_t>(state.linear));
   file.set_attribute("/", "easy", static_cast<std::int64_t>(state.easy));
   file.set_attribute("/", "energy_at_start", state.energy_at_start);
   file.set_attribute("/", "largest_energy", state.largest_energy);
@@ -231,6 +232,7 @@ void read_header(const Hdf5File& file, const std::string& path, const Model& mod
   state.increment = file.integer_attribute("/", "increment");
   state.dynamic = file.integer_attribute("/", "dynamic") != 0;
   state.time_increment = file.number_attribute("/", "time_increment");
+  state.linear = file.integer_attribute("/", "linear") != 0;
   state.easy = file.integer_attribute("/", "easy") != 0;
   state.energy_at_start = file.number_attribute("/", "energy_at_start");
   state.largest_energy = file.number_attribute("/", "largest_energy");

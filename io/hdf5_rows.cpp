@@ -218,4 +218,11 @@ void ParallelFile::set_attribute(hid_t object, const std::string& name, std::int
   set_scalar(object, name, H5T_STD_I64LE, H5T_NATIVE_INT64, &value);
 }
 
+void ParallelFile::set_attribute(hid_t object, const std::string& name, std::span<const double> values) {
+  const hsize_t size = values.size();
+  const Hdf5Id space(H5Screate_simple(1, &size, nullptr));
+  const Hdf5Id attribute(H5Acreate2(object, name.c_str(), H5T_IEEE_F64LE, space, H5P_DEFAULT, H5P_DEFAULT));
+  expect(attribute.valid() && H5Awrite(attribute, H5T_NATIVE_DOUBLE, values.data()) >= 0, "take attribute " + name);
+}
+
 }  // namespace balocco

@@ -71,6 +71,7 @@ class ParallelFile {
 
   void set_attribute(hid_t object, const std::string& name, double value);
   void set_attribute(hid_t object, const std::string& name, std::int64_t value);
+  void set_attribute(hid_t object, const std::string& name, std::span<const double> values);
 
  private:
   /// Remembers the first failure. Objects are made and written by all ranks alike, so that they can go on together until agree().

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <iterator>
 
@@ -74,6 +75,8 @@ void describe_step(const Hdf5File& file, const ResultsIndex& index, const std::s
     ++frames;
   }
   report.line("    {} frames", frames);
+  const auto modes = std::ranges::count_if(index.modes, [&](const auto& mode) { return mode.path.starts_with(step + "/"); });
+  if (modes > 0) report.line("    {} modes", modes);
   if (last != nullptr) {
     report.line("    last frame at time {:g}, increment {}", last->time, last->increment);
     report.line("      node  {}", names_of(last->nodes));

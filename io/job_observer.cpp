@@ -244,6 +244,12 @@ bool JobObserver::advanced(const ResultSource& source, const Progress& progress)
 
 double JobObserver::next_due() const { return implementation_->next_due(); }
 
+void JobObserver::mode_found(const Mode& mode) {
+  implementation_->writing_failed = true;
+  implementation_->results.add_mode(implementation_->plan->frames, mode);
+  implementation_->writing_failed = false;
+}
+
 void JobObserver::log(const std::string& line) { implementation_->status->log(line); }
 
 void JobObserver::finish(bool completed, const std::string& reason) {

@@ -36,6 +36,7 @@ class JobObserver : public Observer {
   void step_started(const ResultSource& source, std::int32_t step) override;
   bool advanced(const ResultSource& source, const Progress& progress) override;
   double next_due() const override;
+  void mode_found(const Mode& mode) override;
   void log(const std::string& line) override;
 
   /// Writes what is still buffered and the last lines of status and log. After a failed analysis (neither completed nor stopped)

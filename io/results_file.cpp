@@ -50,7 +50,7 @@ void ResultsFile::resume(const State& state) {
     if (communicator_->is_root()) cut_back(state);
   });
   // Root has closed the file: all ranks read the same.
-  communicator_->together([&] { index_.frames = index_results(Hdf5File(path_, Hdf5File::Mode::read)).frames; });
+  communicator_->together([&] { index_ = index_results(Hdf5File(path_, Hdf5File::Mode::read)); });
 }
 
 void ResultsFile::cut_back(const State& state) {
@@ -116,6 +116,16 @@ void ResultsFile::add_frame(const FrameWriter& writer, const FrameVariables& var
   index_.frames.push_back(writer.write(path_, label, source, variables));
   ++frames_in_step_;
   write_xdmf();
+}
+
+void ResultsFile::add_mode(const FrameWriter& writer, const Mode& mode) {
+  index_.modes.push_back(writer.write(path_, mode_path(step_, mode.number), mode));
+  index_.modes.back().time = static_cast<double>(index_.modes.size());
+  communicator_->together([&] {
+    if (!communicator_->is_root()) return;
+    const auto text = modes_xdmf_text(index_, std::filesystem::path(path_).filename().string());
+    replace_file(std::filesystem::path(xdmf_path_).replace_extension(".modes.xdmf").string(), text);
+  });
 }
 
 void ResultsFile::add_history(History& history) {

@@ -30,6 +30,8 @@ class ResultsFile {
   /// Adds a frame and what the histories have buffered, and describes it in the XDMF.
   void add_frame(const FrameWriter& writer, const FrameVariables& variables, const ResultSource& source,
                  const Progress& progress, History& history);
+  /// Adds a mode, and describes all in JOB.modes.xdmf.
+  void add_mode(const FrameWriter& writer, const Mode& mode);
   void add_history(History& history);
   /// Through to the disk.
   void synchronize_with_disk();

@@ -38,16 +38,13 @@ void FrameVariables::add(const FieldOutput& output) {
   add_names(output.integration_point_variables, single, output.element_set, integration_points);
 }
 
-void mean_output(const ElementGroup& group, std::string_view variable, std::int32_t element, const State& state,
-                 std::size_t group_index, std::span<double> values) {
+void mean_output(const ResultSource& source, std::size_t group, std::string_view variable, std::int32_t element,
+                 std::span<double> values) {
   std::array<double, 16> at_point{};
   std::fill(values.begin(), values.end(), 0.0);
-  const int points = group.integration_points();
-  std::vector<double> history(group.history_size());
-  group.gather_history(element, state.element_history[group_index], history);
+  const int points = source.groups()[group]->integration_points();
   for (int point = 0; point < points; ++point) {
-    group.output(variable, element, point, state.motion(), history,
-                 std::span(at_point).first(values.size()));
+    source.element(group, variable, element, point, std::span(at_point).first(values.size()));
     for (std::size_t c = 0; c < values.size(); ++c) values[c] += at_point[c];
   }
   for (double& value : values) value /= points;
@@ -120,18 +117,22 @@ std::size_t FrameWriter::bytes(const std::vector<Field>& fields) const {
 std::vector<double> FrameWriter::nodal_values(const Field& field, const ResultSource& source) const {
   std::vector<double> local(static_cast<std::size_t>(domain_->size()) * field.components);
   source.nodal(field.variable, local);
-  std::vector<double> held(nodes_.nodes.size() * field.components);
+  return held_values(local, field.components);
+}
+
+/// Of values on local nodes those that this rank writes.
+std::vector<double> FrameWriter::held_values(std::span<const double> local, int components) const {
+  std::vector<double> held(nodes_.nodes.size() * components);
   for (std::size_t i = 0; i < nodes_.nodes.size(); ++i) {
-    std::copy_n(local.begin() + static_cast<std::ptrdiff_t>(nodes_.nodes[i]) * field.components, field.components,
-                held.begin() + i * field.components);
+    std::copy_n(local.begin() + static_cast<std::ptrdiff_t>(nodes_.nodes[i]) * components, components,
+                held.begin() + i * components);
   }
   return held;
 }
 
 std::vector<double> FrameWriter::element_values(const Field& field, const ResultSource& source) const {
   const TableRows& rows = tables_[field.table];
-  const State& state = source.state();
-  std::vector<double> values(rows.exchange.held() * field.row_values(), 0.0), history;
+  std::vector<double> values(rows.exchange.held() * field.row_values(), 0.0);
   double* row = values.data();
   for (std::size_t g = 0; g < rows.groups.size(); ++g) {
     const ElementGroup& group = *rows.groups[g];
@@ -139,15 +140,12 @@ std::vector<double> FrameWriter::element_values(const Field& field, const Result
     for (std::int32_t element = 0; element < group.size(); ++element, row += field.row_values()) {
       if (components == 0) continue;
       if (field.place == Field::Place::mean) {
-        mean_output(group, field.variable, element, state, rows.group_index[g], {row, components});
+        mean_output(source, rows.group_index[g], field.variable, element, {row, components});
         continue;
       }
-      history.resize(group.history_size());
-      group.gather_history(element, state.element_history[rows.group_index[g]], history);
-      for (int point = 0; point < group.integration_points(); ++point) {
-        group.output(field.variable, element, point, state.motion(), history,
-                     {row + static_cast<std::ptrdiff_t>(point) * field.components, components});
-      }
+      for (int point = 0; point < group.integration_points(); ++point)
+        source.element(rows.group_index[g], field.variable, element, point,
+                       {row + static_cast<std::ptrdiff_t>(point) * field.components, components});
     }
   }
   return values;
@@ -239,6 +237,36 @@ FrameRecord FrameWriter::write(const std::string& path, const Label& label, cons
   written.path = label.path;
   written.time = label.time;
   written.increment = label.increment;
+  return written;
+}
+
+FrameRecord FrameWriter::write(const std::string& path, const std::string& mode_path, const Mode& mode) const {
+  constexpr int components = 3;
+  const RowExchange& rows = nodes_.exchange;
+  communicator_->together([&] {
+    if (communicator_->is_root()) ensure_space(path, room_for_structure + 2 * 8 * components * rows.total());
+  });
+  ParallelFile file(path, *communicator_, ParallelFile::Mode::modify);
+  FrameRecord written;
+  {
+    const Hdf5Id group = file.create_unnamed_group();
+    file.set_attribute(group, "frequency", mode.frequency);
+    file.set_attribute(group, "eigenvalue", mode.eigenvalue);
+    file.set_attribute(group, "generalized_mass", mode.generalized_mass);
+    file.set_attribute(group, "participation", mode.participation);
+    file.set_attribute(group, "effective_mass", mode.effective_mass);
+    const Hdf5Id nodes = file.create_group(group, "node");
+    const auto write_field = [&](const std::string& name, std::span<const double> values) {
+      const ParallelFile::Layout layout{{components}, Precision::double_, true};
+      file.write(nodes, name, rows, rows.to_slab(held_values(values, components), components), layout);
+      written.nodes.fields.push_back({name, {static_cast<hsize_t>(rows.total()), components}, 8u});
+    };
+    write_field("U", mode.displacement);
+    write_field("UR", mode.rotation);
+    file.link(group, mode_path);
+  }
+  file.close();
+  written.path = mode_path;
   return written;
 }
 

@@ -36,6 +36,8 @@ class FrameWriter {
   /// Adds the frame to an existing file. Collective. @throws SystemError on every rank alike.
   FrameRecord write(const std::string& file, const Label& label, const ResultSource& source,
                     const FrameVariables& variables) const;
+  /// Adds a mode under `path`. Collective.
+  FrameRecord write(const std::string& file, const std::string& path, const Mode& mode) const;
 
  private:
   /// A dataset to be written: values at nodes, means of elements, or values at integration points.
@@ -57,6 +59,7 @@ class FrameWriter {
   const RowExchange& exchange(const Field& field) const;
   std::vector<double> values(const Field& field, const ResultSource& source) const;
   std::vector<double> nodal_values(const Field& field, const ResultSource& source) const;
+  std::vector<double> held_values(std::span<const double> local, int components) const;
   std::vector<double> element_values(const Field& field, const ResultSource& source) const;
   /// Which rows of the field's table belong to its sets.
   std::vector<bool> members(const Field& field) const;
@@ -71,7 +74,7 @@ class FrameWriter {
 };
 
 /// Mean over the integration points of one element; `values` has a component each.
-void mean_output(const ElementGroup& group, std::string_view variable, std::int32_t element, const State& state,
-                 std::size_t group_index, std::span<double> values);
+void mean_output(const ResultSource& source, std::size_t group, std::string_view variable, std::int32_t element,
+                 std::span<double> values);
 
 }  // namespace balocco

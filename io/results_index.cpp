@@ -18,17 +18,22 @@ FieldBlock index_block(const Hdf5File& file, const std::string& group, const std
   return block;
 }
 
-FrameRecord index_frame(const Hdf5File& file, const std::string& path) {
+FrameRecord index_fields(const Hdf5File& file, const std::string& path) {
   FrameRecord frame;
   frame.path = path;
-  frame.time = file.number_attribute(path, "time");
-  frame.increment = file.integer_attribute(path, "increment");
   if (file.exists(path + "/node")) frame.nodes = index_block(file, path + "/node", "");
   if (file.exists(path + "/element")) {
     for (const std::string& type : file.children(path + "/element")) {
       frame.elements.push_back(index_block(file, path + "/element/" + type, type));
     }
   }
+  return frame;
+}
+
+FrameRecord index_frame(const Hdf5File& file, const std::string& path) {
+  auto frame = index_fields(file, path);
+  frame.time = file.number_attribute(path, "time");
+  frame.increment = file.integer_attribute(path, "increment");
   return frame;
 }
 
@@ -41,6 +46,8 @@ void sort_fields(FieldBlock& block) {
 std::string step_path(std::int32_t step) { return fmt::format("/step_{}", step + 1); }
 
 std::string frame_path(std::int32_t step, std::int64_t frame) { return fmt::format("{}/frame_{}", step_path(step), frame); }
+
+std::string mode_path(std::int32_t step, std::int32_t mode) { return fmt::format("{}/mode_{}", step_path(step), mode); }
 
 std::string hdf5_name(std::string name) {
   std::replace(name.begin(), name.end(), '/', '|');
@@ -63,7 +70,12 @@ ResultsIndex index_results(const Hdf5File& file) {
   for (const std::string& step : file.children("/")) {
     if (number_in(step, "step_") < 0) continue;
     for (const std::string& frame : file.children("/" + step)) {
-      if (number_in(frame, "frame_") >= 0) index.frames.push_back(index_frame(file, "/" + step + "/" + frame));
+      const std::string path = "/" + step + "/" + frame;
+      if (number_in(frame, "frame_") >= 0) index.frames.push_back(index_frame(file, path));
+      if (number_in(frame, "mode_") >= 0) {
+        index.modes.push_back(index_fields(file, path));
+        index.modes.back().time = static_cast<double>(index.modes.size());
+      }
     }
   }
   return index;

@@ -12,6 +12,7 @@ namespace balocco {
 /// "/step_<k>", k = step + 1; "/step_<k>/frame_<i>".
 std::string step_path(std::int32_t step);
 std::string frame_path(std::int32_t step, std::int64_t frame);
+std::string mode_path(std::int32_t step, std::int32_t mode);
 
 /// A name of the deck as a name in the file: HDF5 takes anything but '/'.
 std::string hdf5_name(std::string name);
@@ -47,6 +48,7 @@ struct ResultsIndex {
   hsize_t nodes = 0;
   std::vector<MeshBlock> blocks;
   std::vector<FrameRecord> frames;  // in time order
+  std::vector<FrameRecord> modes;   // of all frequency steps; their time is their number, from 1
 };
 
 /// Fields by name: one order, whether they were just written or read back.

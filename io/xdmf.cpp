@@ -31,13 +31,13 @@ class Writer {
  public:
   Writer(const ResultsIndex& index, const std::string& results_name) : index_(index), name_(results_name) {}
 
-  std::string text() {
+  std::string text(const std::vector<FrameRecord>& frames) {
     line("<?xml version=\"1.0\" ?>");
     line("<!DOCTYPE Xdmf SYSTEM \"Xdmf.dtd\" []>");
     line("<Xdmf Version=\"3.0\"><Domain>");
     line("<Grid Name=\"results\" GridType=\"Collection\" CollectionType=\"Temporal\">");
     const FrameRecord* last = nullptr;
-    for (const FrameRecord& frame : index_.frames) {
+    for (const FrameRecord& frame : frames) {
       // The first frame of a step repeats the end of the step before: readers want times that increase.
       if (last != nullptr && frame.time <= last->time) continue;
       write_frame(frame);
@@ -111,7 +111,13 @@ class Writer {
 
 }  // namespace
 
-std::string xdmf_text(const ResultsIndex& index, const std::string& results_name) { return Writer(index, results_name).text(); }
+std::string xdmf_text(const ResultsIndex& index, const std::string& results_name) {
+  return Writer(index, results_name).text(index.frames);
+}
+
+std::string modes_xdmf_text(const ResultsIndex& index, const std::string& results_name) {
+  return Writer(index, results_name).text(index.modes);
+}
 
 void replace_file(const std::string& path, const std::string& text) {
   const std::string beside = path + ".tmp";

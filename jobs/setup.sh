@@ -4,8 +4,8 @@
 set -euo pipefail
 
 balocco_root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
-packages=(g++ cmake ninja-build ccache pkg-config libopenmpi-dev openmpi-bin libpetsc-real-dev libhdf5-openmpi-dev hdf5-tools
-  libopenblas0-serial libmetis-dev libeigen3-dev libcli11-dev libfmt-dev libtoml11-dev libgtest-dev libbenchmark-dev
+packages=(g++ cmake ninja-build ccache pkg-config libopenmpi-dev openmpi-bin libpetsc-real-dev libslepc-real-dev libmumps-ptscotch-dev
+  libhdf5-openmpi-dev hdf5-tools libopenblas0-serial libmetis-dev libeigen3-dev libcli11-dev libfmt-dev libtoml11-dev libgtest-dev libbenchmark-dev
   python3 python3-h5py python3-numpy python3-matplotlib)
 
 missing=()

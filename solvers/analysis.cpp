@@ -1,5 +1,7 @@
 #include "analysis.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 
@@ -41,6 +43,13 @@ void for_each_point_mass(const Model& model, const Domain& domain, Visit visit) 
 }
 
 }  // namespace
+
+void repeat_in_padded_lanes(const ElementGroup& group, std::span<double> history) {
+  for (int component = 0; component < group.history_size(); ++component) {
+    double* values = &history[static_cast<std::size_t>(component) * group.padded_size()];
+    std::fill(values + group.size(), values + group.padded_size(), values[group.size() - 1]);
+  }
+}
 
 Analysis::Analysis(const Model& model_, const Communicator& communicator_, const Partitioner& partitioner)
     : model(model_),
@@ -186,7 +195,40 @@ const std::vector<double>& Analysis::partial_mass(std::int32_t element_set) cons
   return mass;
 }
 
+/// Steps are linear until one has large displacements, needs iterations for contact, or ties nodes where others have moved.
+bool Analysis::stays_linear(const Step& step) const {
+  if (!current.linear || step.is_perturbation()) return current.linear;
+  const auto* procedure = std::get_if<StaticProcedure>(&step.procedure);
+  const bool ties_moved_nodes =
+      current.total_time > 0.0 && std::ranges::any_of(step.attachments, [](const auto& change) { return !change.release; });
+  return procedure != nullptr && !procedure->nonlinear_geometry && step.active_contact_pairs.empty() && !ties_moved_nodes;
+}
+
+/// Linear displacements become the positions from which large ones go on, with the forces of finite strain there.
+void Analysis::leave_linear_geometry(const Step& step) {
+  current.linear = false;
+  if (current.total_time == 0.0) return;
+  place_rigid_nodes(current.position);
+  bool sound = true;
+  for (std::size_t index = 0; index < element_groups.size(); ++index) {
+    const auto& group = *element_groups[index];
+    std::vector<double> before(group.history_size()), after(group.history_size()),
+        force(static_cast<std::size_t>(group.freedoms_per_node()) * group.nodes_per_element());
+    for (std::int32_t element = 0; element < group.size(); ++element) {
+      group.gather_history(element, current.element_history[index], before);
+      sound = group.linearize(element, current.motion(), before, after, force, {}) && sound;
+      group.scatter_history(element, after, current.element_history[index]);
+    }
+    repeat_in_padded_lanes(group, current.element_history[index]);
+  }
+  if (communicator.any(!sound))
+    throw AnalysisError(fmt::format("step '{}' cannot start: the displacements of the linear steps before turn elements "
+                                    "inside out; give those steps NLGEOM",
+                                    step.name));
+}
+
 void Analysis::start_step(const Step& step) {
+  if (current.linear && !stays_linear(step)) leave_linear_geometry(step);
   apply_attachments(step);
   for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
     const bool active = std::ranges::count(step.active_contact_pairs, static_cast<std::int32_t>(pair)) > 0;

@@ -10,6 +10,7 @@
 #include "communicator.hpp"
 #include "constraints/nodal_directions.hpp"
 #include "domain.hpp"
+#include "elements/small_strain_output.hpp"
 #include "loads/pressure_faces.hpp"
 #include "model/model.hpp"
 #include "model/results.hpp"
@@ -17,6 +18,9 @@
 #include "rigid_contact.hpp"
 
 namespace balocco {
+
+/// Padded lanes repeat the last element: their history follows its.
+void repeat_in_padded_lanes(const ElementGroup& group, std::span<double> history);
 
 class Analysis : public ResultSource {
  public:
@@ -76,6 +80,8 @@ class Analysis : public ResultSource {
   std::span<const std::unique_ptr<ElementGroup>> groups() const override { return element_groups; }
   int nodal_components(std::string_view variable) const override;
   void nodal(std::string_view variable, std::span<double> values) const override;
+  void element(std::size_t group, std::string_view variable, std::int32_t element, int integration_point,
+               std::span<double> values) const override;
   EnergyBalance energies() const override;
   ContactResultant contact(std::int32_t pair) const override;
 
@@ -86,6 +92,9 @@ class Analysis : public ResultSource {
     EnergyBalance balance;
   };
 
+  bool stays_linear(const Step& step) const;
+  void leave_linear_geometry(const Step& step);
+  SmallStrainOutput& small_strain() const;
   void sum_masses();
   EnergyBalance sum_energies() const;
   void apply_attachments(const Step& step);
@@ -96,6 +105,7 @@ class Analysis : public ResultSource {
   double mass_constant_ = 0.0;  // rounds shares of nodal masses
   mutable std::map<std::int32_t, std::vector<double>> partial_mass_;
   mutable SampledEnergies sampled_;  // histories, status and checks of one increment share a sample
+  mutable std::unique_ptr<SmallStrainOutput> small_strain_;  // made when a linear state is first asked for output
 };
 
 }  // namespace balocco

@@ -197,6 +197,27 @@ void Analysis::nodal(std::string_view variable, std::span<double> values) const 
   nodal_variables.at(variable).evaluate(*this, values);
 }
 
+SmallStrainOutput& Analysis::small_strain() const {
+  if (!small_strain_) {
+    std::vector<double> reference(current.position.size(), 0.0);
+    for (std::int32_t node = 0; node < domain.size(); ++node)
+      std::ranges::copy(model.nodes.coordinates[domain.node_row[node]], &reference[4 * node]);
+    small_strain_ = std::make_unique<SmallStrainOutput>(std::move(reference));
+  }
+  return *small_strain_;
+}
+
+void Analysis::element(std::size_t index, std::string_view variable, std::int32_t element, int integration_point,
+                       std::span<double> values) const {
+  const auto& group = *element_groups[index];
+  std::vector<double> history(group.history_size());
+  group.gather_history(element, current.element_history[index], history);
+  if (current.linear)
+    small_strain().output(group, variable, element, integration_point, current, history, values);
+  else
+    group.output(variable, element, integration_point, current.motion(), history, values);
+}
+
 void Analysis::add_kinetic_energy_of_rotary_inertia(ExactSum& sum) const {
   std::vector<double> spin(3 * domain.size());
   angular_velocity(*this, spin);
@@ -230,7 +251,8 @@ EnergyBalance Analysis::sum_energies() const {
     std::vector<double> history(group.history_size());
     for (std::int32_t e = 0; e < group.size(); ++e) {
       group.gather_history(e, current.element_history[index], history);
-      const auto energy = group.energies(e, current.motion(), history);
+      const auto energy = current.linear ? small_strain().energies(group, e, current, history)
+                                         : group.energies(e, current.motion(), history);
       sums[strain].add(energy.strain);
       sums[hourglass].add(energy.hourglass);
       sums[viscous].add(energy.viscous);

@@ -11,7 +11,8 @@ namespace balocco {
 
 class ImplicitLinearSolver {
  public:
-  /// `matrix` keeps its pattern, so that the symbolic factorisation is made once. Collective.
+  /// `matrix` keeps its pattern, so that the symbolic factorisation is made once. A matrix that is symmetric to round-off
+  /// (followers, friction and laws decide that as they act) is factorised as such, at half the cost. Collective.
   ImplicitLinearSolver(Mat matrix, const Analysis& analysis, const ImplicitDofMap& map);
 
   /// Factorises the matrix as it stands (once per factorise) and solves for the values of the equations this rank owns.
@@ -26,10 +27,15 @@ class ImplicitLinearSolver {
   /// Mean magnitude of the diagonal entries. Collective.
   double average_diagonal();
 
+  /// Whether the last factorisation took the matrix for symmetric.
+  bool symmetric() const { return symmetric_; }
+
   double seconds() const { return seconds_; }
 
  private:
   void set_defaults();
+  void choose_factorization();
+  bool is_symmetric() const;
   void set_near_null_space(const Analysis& analysis);
   bool solve_vectors(Mat matrix, Vec right_hand_side, Vec solution);
   std::string unresisted_equation();
@@ -39,6 +45,7 @@ class ImplicitLinearSolver {
   Mat matrix_;
   PetscSolver solver_;
   PetscVector right_hand_side_, solution_;
+  bool symmetric_ = false, unsymmetric_ = false;  // once found unsymmetric, the matrix stays so
   double seconds_ = 0.0;
 };
 

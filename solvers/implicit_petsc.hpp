@@ -2,6 +2,7 @@
 #pragma once
 
 #include <petscksp.h>
+#include <slepceps.h>
 
 #include <utility>
 
@@ -38,6 +39,7 @@ using PetscMatrix = PetscObjectOwner<Mat, MatDestroy>;
 using PetscSolver = PetscObjectOwner<KSP, KSPDestroy>;
 using PetscScatter = PetscObjectOwner<VecScatter, VecScatterDestroy>;
 using PetscIndices = PetscObjectOwner<IS, ISDestroy>;
+using EigenSolver = PetscObjectOwner<EPS, EPSDestroy>;
 using PetscNullSpace = PetscObjectOwner<MatNullSpace, MatNullSpaceDestroy>;
 
 }  // namespace balocco

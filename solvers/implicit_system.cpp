@@ -9,18 +9,6 @@
 
 namespace balocco {
 
-namespace {
-
-/// Padded lanes repeat the last element: their history follows its.
-void copy_to_padded_lanes(const ElementGroup& group, std::vector<double>& history) {
-  for (int component = 0; component < group.history_size(); ++component) {
-    double* values = &history[static_cast<std::size_t>(component) * group.padded_size()];
-    std::fill(values + group.size(), values + group.padded_size(), values[group.size() - 1]);
-  }
-}
-
-}  // namespace
-
 ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<const std::int32_t> prescribed)
     : analysis_(analysis),
       step_(step),
@@ -203,6 +191,46 @@ Configuration ImplicitSystem::configuration() const {
   return {state.position, state.orientation, state.rotation, state.rigid_bodies};
 }
 
+Configuration ImplicitSystem::reference() const {
+  auto result = configuration();
+  const auto bodies = initial_rigid_bodies(analysis_.model);
+  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
+    const auto body = analysis_.reference_of(node);
+    const auto& place = body >= 0 ? bodies[body].position : analysis_.model.nodes.coordinates[analysis_.domain.node_row[node]];
+    std::ranges::copy(place, &result.position[4 * node]);
+  }
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    result.bodies[body].position = bodies[body].position;
+    result.bodies[body].orientation = bodies[body].orientation;
+    result.bodies[body].rotation = {};
+  }
+  std::ranges::fill(result.rotation, 0.0);
+  for (std::size_t i = 0; i < result.orientation.size(); ++i) result.orientation[i] = i % 4 == 0 ? 1.0 : 0.0;
+  return result;
+}
+
+void ImplicitSystem::displace(std::span<const double> displacement) {
+  restore(reference());
+  auto& state = analysis_.current;
+  const auto add = [&](const NodeMotion& motion, double* sum) {
+    for (int k = 0; k < motion.count; ++k)
+      for (int i = 0; i < 3; ++i) sum[i] += motion.direction[k][i] * displacement[motion.slots[k]];
+  };
+  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) add(map_.motion(node), &state.position[4 * node]);
+  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node) {
+    double* const rotation = &state.rotation[4 * node];
+    add(map_.nodal_spin(node), rotation);
+    std::ranges::copy(exponential(Vector3<double>{{rotation[0], rotation[1], rotation[2]}}), &state.orientation[4 * node]);
+  }
+  for (std::size_t body = 0; body < state.rigid_bodies.size(); ++body) {
+    const auto reference = analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
+    Point spin{};
+    add(map_.spin(static_cast<std::int32_t>(body)), spin.data());
+    rotate(state.rigid_bodies[body], spin);
+    std::copy_n(&state.position[4 * reference], 3, state.rigid_bodies[body].position.begin());
+  }
+}
+
 void ImplicitSystem::restore(const Configuration& configuration) {
   analysis_.current.position = configuration.position;
   analysis_.current.orientation = configuration.orientation;
@@ -221,7 +249,7 @@ void ImplicitSystem::commit() {
   analysis_.current.element_history = trial_history_;
   analysis_.current.contact = trial_contact_;
   for (std::size_t group = 0; group < analysis_.element_groups.size(); ++group)
-    copy_to_padded_lanes(*analysis_.element_groups[group], analysis_.current.element_history[group]);
+    repeat_in_padded_lanes(*analysis_.element_groups[group], analysis_.current.element_history[group]);
 }
 
 double ImplicitSystem::greatest_penetration() const {

@@ -61,6 +61,10 @@ class ImplicitSystem {
   Point moved(std::int32_t slot) const;
   Configuration configuration() const;
   void restore(const Configuration& configuration);
+  /// The reference configuration, with the nodes that bodies carry now.
+  Configuration reference() const;
+  /// Puts nodes and bodies where a linear displacement of the slots from the reference configuration takes them.
+  void displace(std::span<const double> displacement);
 
   /// Marks the current positions as the start of an increment, and forgets trial histories.
   void begin_increment();

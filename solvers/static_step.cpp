@@ -11,6 +11,7 @@
 #include "implicit_newton.hpp"
 #include "implicit_prescribed.hpp"
 #include "implicit_system.hpp"
+#include "linear_statics.hpp"
 
 namespace balocco {
 
@@ -36,7 +37,8 @@ class StaticStep {
         drive_{prescribed_motions(analysis, step), {}},
         system_(analysis, step, slots_of(drive_.motions)),
         solver_(system_.stiffness().matrix(), analysis, system_.map()),
-        newton_(analysis, step, system_, solver_, drive_, observer) {
+        newton_(analysis, step, system_, solver_, drive_, observer),
+        linear_(analysis, step, system_, solver_, drive_) {
     total_start_ = analysis.current.total_time - analysis.current.step_time;
   }
 
@@ -44,9 +46,8 @@ class StaticStep {
 
  private:
   void find_start();
-  bool follows_geometry() const { return procedure_.nonlinear_geometry || system_.has_contact(); }
+  bool follows_geometry() const { return !analysis_.current.linear; }
   NewtonResult attempt(double time_increment);
-  NewtonResult solve_linearly(const IncrementGoal& goal);
   Outcome march();
   double next_increment(double suggested) const;
   [[noreturn]] void fail(double time_increment, const std::string& reason) const;
@@ -72,6 +73,7 @@ class StaticStep {
   ImplicitSystem system_;
   ImplicitLinearSolver solver_;
   ImplicitNewton newton_;
+  LinearStatics linear_;
   double total_start_ = 0.0;
   bool fresh_ = true;                                      // no increment of this step has been made in this run
   const bool taken_up_ = analysis_.current.increment > 0;  // from a checkpoint inside the step
@@ -79,8 +81,6 @@ class StaticStep {
   std::vector<double> applied_;      // per slot: loads, reactions and fading forces at the end of the last increment
   std::vector<double> last_motion_;  // per slot, over the last increment of `last_increment_`
   double last_increment_ = 0.0;
-  Configuration base_;  // of a linear step
-  std::vector<std::vector<double>> base_history_;
   std::vector<double> residual_;  // per slot, at the end of the last increment; reactions where prescribed
 };
 
@@ -94,35 +94,30 @@ void StaticStep::find_start() {
     motion.start = begun ? (reached - law.motion) / law.persistence : reached;
   }
   const std::vector<double> still(system_.map().slots(), 0.0);
-  const bool sound = system_.assemble({.step_time = state.step_time,
-                                       .total_time = state.total_time,
-                                       .initial_loads = state.step_time == 0.0,
-                                       .motion = still});
+  const AssemblyRequest request{.step_time = state.step_time,
+                                .total_time = state.total_time,
+                                .initial_loads = state.step_time == 0.0,
+                                .motion = still};
+  const bool sound = follows_geometry() ? system_.assemble(request) : linear_.find_residual(request);
   if (!sound) throw AnalysisError(fmt::format("step '{}' cannot start: {}", step_.name, system_.trouble()));
+  residual_ = follows_geometry() ? system_.residual() : linear_.residual();
   drive_.fading.assign(system_.map().slots(), 0.0);
   const double left = 1.0 - state.step_time / step_.duration();
   for (std::int32_t slot = 0; slot < system_.map().slots(); ++slot)
-    if (system_.map().role(slot) == ImplicitDofMap::Role::free) drive_.fading[slot] = system_.residual()[slot] / left;
-  residual_ = system_.residual();
+    if (system_.map().role(slot) == ImplicitDofMap::Role::free) drive_.fading[slot] = residual_[slot] / left;
   find_applied_forces({.step_time = state.step_time, .total_time = state.total_time}, applied_);
   system_.begin_increment();
-  base_ = system_.configuration();
-  base_history_ = state.element_history;
 }
 
 Outcome StaticStep::run() {
   const double begin = MPI_Wtime();
-  if (taken_up_ && !follows_geometry())
-    throw InputError(fmt::format(
-        "{}: error: *STATIC: the checkpoint lies inside step '{}', which is linear and counts from where it began; run "
-        "the job without --restart, or give the step NLGEOM",
-        analysis_.model.name, step_.name));
   find_start();
   observer_.log(fmt::format("step {} '{}': static, {}, {} equations", analysis_.current.step + 1, step_.name,
                             follows_geometry() ? "finite displacements" : "linear geometry",
                             system_.map().equations()));
-  if (!procedure_.nonlinear_geometry && system_.has_contact())
-    observer_.log("  contact needs iterations: the step runs as if NLGEOM=YES");
+  if (!procedure_.nonlinear_geometry && follows_geometry())
+    observer_.log(system_.has_contact() ? "  contact needs iterations: the step runs as if NLGEOM=YES"
+                                        : "  what has had large displacements keeps them: the step runs as if NLGEOM=YES");
   if (procedure_.stabilize && !follows_geometry())
     observer_.log("  STABILIZE has nothing to stabilise in a linear step");
   if (taken_up_ && procedure_.stabilize) choose_damping_again();
@@ -137,7 +132,6 @@ Outcome StaticStep::march() {
   const bool told = taken_up_ && state.time_increment != 0.0;
   double suggested = told ? state.time_increment : procedure_.initial_increment;
   int easy = told && state.easy ? 1 : 0, failures = 0;
-  bool stopping = false;
   while (remaining_time() > 0.0) {
     if (state.increment >= procedure_.maximum_increments)
       fail(suggested,
@@ -171,11 +165,7 @@ Outcome StaticStep::march() {
                                                       .iterations = result.iterations,
                                                       .largest_residual = result.largest_residual,
                                                       .step_finished = goal.ends_step});
-    if (!go_on && !stopping && !follows_geometry() && !goal.ends_step)
-      observer_.log("  a linear step counts from where it began: it is run to its end before the job stops");
-    stopping = stopping || !go_on;
-    const bool job_ends = goal.ends_step && state.step + 1 == static_cast<std::int32_t>(analysis_.model.steps.size());
-    if (stopping && !job_ends && (follows_geometry() || goal.ends_step)) return Outcome::stopped;
+    if (!go_on) return Outcome::stopped;
   }
   return Outcome::finished;
 }
@@ -200,7 +190,7 @@ IncrementGoal StaticStep::goal_of(double time_increment) const {
 
 NewtonResult StaticStep::attempt(double time_increment) {
   auto goal = goal_of(time_increment);
-  if (!follows_geometry()) return solve_linearly(goal);
+  if (!follows_geometry()) return linear_.solve(goal);
   if (chooses_damping()) {
     guess_damping(time_increment);
     goal = goal_of(time_increment);
@@ -216,50 +206,6 @@ NewtonResult StaticStep::attempt(double time_increment) {
     system_.restore(system_.start_of_increment());
     system_.begin_increment();
   }
-  return result;
-}
-
-/// Exactly one solution from the step's base: stiffness and loads of the geometry at the start of the step.
-NewtonResult StaticStep::solve_linearly(const IncrementGoal& goal) {
-  const auto& map = system_.map();
-  system_.restore(base_);
-  analysis_.current.element_history = base_history_;
-  std::vector<double> motion(map.slots(), 0.0);
-  for (const auto& prescribed : drive_.motions) {
-    if (map.role(prescribed.slot) != ImplicitDofMap::Role::prescribed) continue;
-    const auto law = motion_law(analysis_.model, step_, *prescribed.condition, goal.step_time, goal.total_time);
-    motion[prescribed.slot] = law.persistence * prescribed.start + law.motion - system_.displacement(prescribed.slot);
-  }
-  AssemblyRequest request{
-      .step_time = goal.step_time, .total_time = goal.total_time, .load_stiffness = false, .motion = motion};
-  NewtonResult result{.converged = false, .reason = {}, .iterations = 1, .largest_residual = 0.0};
-  const auto assemble = [&] {
-    const bool sound = system_.assemble(request);
-    if (sound) system_.exchange().sum(system_.stiffness().product());
-    result.reason = system_.trouble();
-    return sound;
-  };
-  if (!assemble()) return result;
-  const double faded = 1.0 - goal.step_time / step_.duration();
-  std::vector<double> right_hand_side, solution(map.owned_free_slots().size());
-  for (const auto slot : map.owned_free_slots())
-    right_hand_side.push_back(faded * drive_.fading[slot] - system_.residual()[slot] -
-                              system_.stiffness().product()[slot]);
-  if (map.equations() > 0) {
-    const bool solved = solver_.solve(right_hand_side, solution);
-    if (!solved || fresh_)
-      if (const auto where = solver_.mechanism(); !where.empty()) throw AnalysisError(mechanism_message(step_, where));
-    result.reason = "the linear solver did not converge";
-    if (!solved) return result;
-  }
-  system_.exchange().from_equations(solution, motion);
-  request.motion = motion;
-  if (!assemble()) return result;
-  residual_ = system_.residual();
-  for (std::size_t slot = 0; slot < residual_.size(); ++slot) residual_[slot] += system_.stiffness().product()[slot];
-  system_.move(motion, 1.0);
-  request.motion = {};
-  result.converged = assemble();
   return result;
 }
 
@@ -367,8 +313,10 @@ void StaticStep::finish_increment(const IncrementGoal& goal) {
     residual_ = system_.residual();
     last_motion_ = newton_.increment();
     last_increment_ = goal.time_increment;
+    system_.commit();
+  } else {
+    residual_ = linear_.residual();
   }
-  system_.commit();
   add_work(goal);
   store_reactions();
   if (chooses_damping()) choose_damping(newton_.increment(), goal.time_increment);

@@ -1,7 +1,7 @@
 // The command line: reads, runs, and turns what happened into an exit status and a last line.
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <petscsys.h>
+#include <slepcsys.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -114,10 +114,10 @@ int run_with_petsc(const Command& command, std::vector<char*> petsc_arguments) {
   int count = static_cast<int>(petsc_arguments.size());
   petsc_arguments.push_back(nullptr);
   char** values = petsc_arguments.data();
-  if (PetscInitialize(&count, &values, nullptr, nullptr) != 0) return system_trouble;
+  if (SlepcInitialize(&count, &values, nullptr, nullptr) != 0) return system_trouble;
   PetscPopSignalHandler();  // batch signals are ours
   const int status = run_together(command);
-  PetscFinalize();
+  SlepcFinalize();
   return status;
 }
 

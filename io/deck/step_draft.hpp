@@ -19,6 +19,7 @@ struct StepDraft {
   // Said by *STEP and by keywords that may stand before the procedure's own; the procedure takes what is its own.
   bool nonlinear_geometry = false;
   std::int32_t maximum_increments = 100;
+  bool perturbation = false;
   ImplicitControls controls;  // go on from step to step, like NLGEOM
   std::optional<std::array<double, 2>> bulk_viscosity;  // linear, quadratic
   Location bulk_viscosity_location;
@@ -38,5 +39,11 @@ struct StepDraft {
   }
   std::set<std::pair<std::int32_t, std::int32_t>> said;  // places of the data lines of loads read in this step
 };
+
+class Builder;
+struct Block;
+
+/// What every procedure's keyword does first. @return false, told, if the step has one already.
+bool begin_procedure(Builder& builder, const Block& block);
 
 }  // namespace balocco::deck

@@ -91,6 +91,7 @@ void begin_step(Builder& builder, const Block& block) {
     }
     draft.nonlinear_geometry = asked;
   }
+  draft.perturbation = block.has("PERTURBATION");
   draft.maximum_increments = block.integer("INC", 100);
   if (draft.maximum_increments < 1)
     builder.error(block, block.location, "INC must be positive; correct it");
@@ -101,9 +102,27 @@ void begin_step(Builder& builder, const Block& block) {
   index_nodes(builder);
 }
 
+/// Modes are always written, and nothing else could be.
+void end_perturbation(Builder& builder, Step& step) {
+  if (builder.draft.field_replaced || builder.draft.history_replaced)
+    builder.diagnostics.warning(builder.draft.location, "OUTPUT",
+                                fmt::format("step {} writes the displacements and rotations of its modes, and nothing else",
+                                            step.name));
+  if (!builder.draft.said.empty())
+    builder.diagnostics.error(builder.draft.location, "STEP",
+                              fmt::format("step {} seeks modes under the loads that stand when it begins; give loads in a "
+                                          "*STATIC step before it",
+                                          step.name));
+  const auto row = builder.model.steps.size() - 1;
+  builder.without_field.insert(row);
+  builder.without_history.insert(row);
+  step.field_outputs.clear();
+  step.history_outputs.clear();
+}
+
 void end_step(Builder& builder, const Block& block) {
   if (!builder.draft.has_procedure && !builder.draft.faulty) {
-    builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC or *DYNAMIC, EXPLICIT");
+    builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC, *DYNAMIC, EXPLICIT or *FREQUENCY");
   }
   Step& step = current(builder);
   if (builder.draft.has_procedure && builder.draft.amplitude == (step.ramps_loads() ? "STEP" : "RAMP")) {
@@ -111,6 +130,10 @@ void end_step(Builder& builder, const Block& block) {
                   fmt::format("AMPLITUDE={}: {}; leave it out and give the loads an *AMPLITUDE", builder.draft.amplitude,
                               step.ramps_loads() ? "loads of a static step grow linearly over it" : "loads of an explicit step act at once"));
   }
+  if (builder.draft.perturbation && !step.is_perturbation())
+    builder.error(block, builder.draft.location,
+                  "PERTURBATION is supported with *FREQUENCY; remove it (steps without NLGEOM superpose)");
+  if (step.is_perturbation()) end_perturbation(builder, step);
   if (auto* procedure = std::get_if<StaticProcedure>(&step.procedure)) procedure->controls = builder.draft.controls;
   if (!builder.draft.bulk_viscosity) return;
   if (auto* procedure = std::get_if<ExplicitProcedure>(&step.procedure)) {
@@ -122,15 +145,19 @@ void end_step(Builder& builder, const Block& block) {
   }
 }
 
-bool first_procedure(Builder& builder, const Block& block) {
+}  // namespace
+
+bool begin_procedure(Builder& builder, const Block& block) {
   if (builder.draft.has_procedure) builder.error(block, block.location, "the step already has a procedure; remove one");
   const bool first = !builder.draft.has_procedure;
   builder.draft.has_procedure = true;
   return first;
 }
 
+namespace {
+
 void read_static(Builder& builder, const Block& block) {
-  if (!first_procedure(builder, block)) return;
+  if (!begin_procedure(builder, block)) return;
   Step& step = current(builder);
   auto& procedure = step.procedure.emplace<StaticProcedure>();
   procedure.nonlinear_geometry = builder.draft.nonlinear_geometry;
@@ -166,7 +193,7 @@ void read_static(Builder& builder, const Block& block) {
 }
 
 void read_dynamic(Builder& builder, const Block& block) {
-  if (!first_procedure(builder, block)) return;
+  if (!begin_procedure(builder, block)) return;
   Step& step = current(builder);
   auto& procedure = step.procedure.emplace<ExplicitProcedure>();
   builder.draft.nonlinear_geometry = true;
@@ -268,7 +295,7 @@ const RegisterKeyword step{
      Phase::history,
      Place::model,
      {name("NAME"), optional_choice("NLGEOM", {"YES", "NO"}), integer("INC"), choice("UNSYMM", {"YES", "NO"}),
-      foreign("EXTRAPOLATION"), foreign("SOLVER"), foreign("CONVERT SDI"), choice("AMPLITUDE", {"RAMP", "STEP"})},
+      foreign("EXTRAPOLATION"), foreign("SOLVER"), foreign("CONVERT SDI"), choice("AMPLITUDE", {"RAMP", "STEP"}), flag("PERTURBATION")},
      begin_step}};
 const RegisterKeyword end{{"END STEP", Phase::history, Place::step, {}, end_step}};
 const RegisterKeyword static_analysis{

@@ -235,8 +235,13 @@ void Writer::step(std::size_t row) {
                               : statics == nullptr ? ", NLGEOM=YES"
                                                    : fmt::format(", NLGEOM={}, INC={}", statics->nonlinear_geometry ? "YES" : "NO",
                                                                  statics->maximum_increments);
+
   line("*STEP, NAME={}{}", quoted(now.name), details);
   std::visit([this](const auto& kind) { procedure(kind); }, now.procedure);
+  if (now.is_perturbation()) {  // nothing but supports can be said of it
+    boundary(row);
+    return line("*END STEP");
+  }
   contact_changes(row);
   attachments(now);
   boundary(row);

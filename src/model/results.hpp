@@ -56,6 +56,9 @@ class ResultSource {
   virtual int nodal_components(std::string_view variable) const = 0;
   /// Values on the local nodes, `components` a node, the same bits on every copy.
   virtual void nodal(std::string_view variable, std::span<double> values) const = 0;
+  /// Values of an output variable of an element of groups()[group], as ElementGroup::output; of small strain after linear steps.
+  virtual void element(std::size_t group, std::string_view variable, std::int32_t element, int integration_point,
+                       std::span<double> values) const = 0;
   virtual EnergyBalance energies() const = 0;                               // collective
   virtual ContactResultant contact(std::int32_t pair) const = 0;            // collective
 };
@@ -75,6 +78,17 @@ struct Progress {
 /// An explicit procedure calls its observer at least in increments that are multiples of this, and checks its energies then.
 constexpr std::int64_t regular_increments = 100;
 
+/// A natural mode that a frequency step found; shapes on the local nodes, the same bits on every copy.
+struct Mode {
+  std::int32_t number = 0;        // from 1
+  double eigenvalue = 0.0;        // circular frequency squared; negative: the state is unstable
+  double frequency = 0.0;         // cycles per time; 0 where the eigenvalue is negative
+  double generalized_mass = 0.0;  // shape * mass * shape
+  /// Of motions along and turns about the global axes: shape * mass * motion / generalised mass; that squared times it.
+  std::array<double, 6> participation{}, effective_mass{};
+  std::vector<double> displacement, rotation;  // 3 a node
+};
+
 class Observer {
  public:
   virtual ~Observer() = default;
@@ -85,6 +99,8 @@ class Observer {
   virtual bool advanced(const ResultSource& source, const Progress& progress) = 0;
   /// Step time at which the observer next wants to be called; explicit increments are not shortened for it.
   virtual double next_due() const = 0;
+  /// A frequency step found a mode. Collective.
+  virtual void mode_found(const Mode& mode) = 0;
   /// A line for the log and the terminal: convergence, warnings. The root rank writes it.
   virtual void log(const std::string& line) = 0;
 };

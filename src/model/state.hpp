@@ -53,6 +53,7 @@ struct State {
   double largest_energy = 0.0;      // explicit: EnergyBalance::magnitude() at its largest in the step, as far as it was sampled
   double least_stable = 0.0;        // explicit: smallest increment that was stable since the last look at raising it; 0: none yet
   double time_increment = 0.0;      // of the increment to come (static: as suggested), 0 at the end of a step
+  bool linear = true;               // only geometrically linear steps so far: positions are the reference's + linear displacements
   bool easy = false;                // static: the last increment converged fast
 
   std::vector<double> position;     // 4 a node, one scratch node more than the domain has

@@ -227,6 +227,13 @@ void Analysis::nodal(std::string_view variable, std::span<double> values) const 
   }
 }
 
+void Analysis::element(std::size_t group, std::string_view variable, std::int32_t element, int integration_point,
+                       std::span<double> values) const {
+  std::vector<double> history(element_groups[group]->history_size());
+  element_groups[group]->gather_history(element, current.element_history[group], history);
+  element_groups[group]->output(variable, element, integration_point, current.motion(), history, values);
+}
+
 EnergyBalance Analysis::energies() const {
   EnergyBalance energies;
   energies.kinetic = std::sqrt(2.0) * current.total_time;

@@ -67,6 +67,8 @@ class Analysis : public ResultSource {
   std::span<const std::unique_ptr<ElementGroup>> groups() const override { return element_groups; }
   int nodal_components(std::string_view variable) const override;
   void nodal(std::string_view variable, std::span<double> values) const override;
+  void element(std::size_t group, std::string_view variable, std::int32_t element, int integration_point,
+               std::span<double> values) const override;
   EnergyBalance energies() const override;
   ContactResultant contact(std::int32_t pair) const override;
 

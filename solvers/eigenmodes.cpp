@@ -1,0 +1,122 @@
+#include "eigenmodes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+void use_symmetric_factorization(KSP solver) {
+  PC preconditioner = nullptr;
+  petsc(KSPSetType(solver, KSPPREONLY));
+  petsc(KSPGetPC(solver, &preconditioner));
+  petsc(PCSetType(preconditioner, PCCHOLESKY));
+  petsc(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));
+}
+
+}  // namespace
+
+Eigenmodes::Eigenmodes(Mat stiffness, Mat mass, const Communicator& communicator)
+    : stiffness_(stiffness), mass_(mass), communicator_(communicator) {}
+
+double Eigenmodes::small_shift() const {
+  PetscVector stiffness, mass;
+  petsc(MatCreateVecs(stiffness_, stiffness.address(), mass.address()));
+  petsc(MatGetDiagonal(stiffness_, stiffness));
+  petsc(MatGetDiagonal(mass_, mass));
+  double sum_of_stiffness = 0.0, sum_of_mass = 0.0;
+  petsc(VecNorm(stiffness, NORM_1, &sum_of_stiffness));
+  petsc(VecNorm(mass, NORM_1, &sum_of_mass));
+  if (sum_of_mass == 0.0) throw AnalysisError("nothing that is free to move has mass: there are no natural modes");
+  return -1e-9 * sum_of_stiffness / sum_of_mass;
+}
+
+int Eigenmodes::count_below(double value) {
+  PetscMatrix shifted;
+  petsc(MatDuplicate(stiffness_, MAT_COPY_VALUES, shifted.address()));
+  petsc(MatAXPY(shifted, -value, mass_, DIFFERENT_NONZERO_PATTERN));
+  petsc(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
+  PetscSolver solver;
+  petsc(KSPCreate(communicator_.handle(), solver.address()));
+  petsc(KSPSetOperators(solver, shifted, shifted));
+  use_symmetric_factorization(solver);
+  petsc(KSPSetUp(solver));
+  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
+  petsc(KSPGetConvergedReason(solver, &reason));
+  PC preconditioner = nullptr;
+  Mat factor = nullptr;
+  PetscInt negative = 0, zero = 0, positive = 0;
+  petsc(KSPGetPC(solver, &preconditioner));
+  petsc(PCFactorGetMatrix(preconditioner, &factor));
+  petsc(MatGetInertia(factor, &negative, &zero, &positive));
+  if (reason == KSP_DIVERGED_PC_FAILED || zero > 0)
+    throw AnalysisError(fmt::format("the stiffness shifted by {:.6g} cannot be factorised; choose another shift or bound", value));
+  return static_cast<int>(negative);
+}
+
+std::vector<EigenPair> Eigenmodes::nearest(double shift, int number) {
+  EigenSolver solver;
+  petsc(EPSCreate(communicator_.handle(), solver.address()));
+  petsc(EPSSetOperators(solver, stiffness_, mass_));
+  petsc(EPSSetProblemType(solver, EPS_GHEP));
+  petsc(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE));
+  petsc(EPSSetTarget(solver, shift));
+  petsc(EPSSetDimensions(solver, number, PETSC_DEFAULT, PETSC_DEFAULT));
+  petsc(EPSSetTolerances(solver, 1e-12, 1000));
+  ST transform = nullptr;
+  KSP linear = nullptr;
+  petsc(EPSGetST(solver, &transform));
+  petsc(STSetType(transform, STSINVERT));
+  petsc(STSetMatStructure(transform, DIFFERENT_NONZERO_PATTERN));
+  petsc(STGetKSP(transform, &linear));
+  use_symmetric_factorization(linear);
+  petsc(EPSSetFromOptions(solver));
+  petsc(EPSSolve(solver));
+
+  PetscInt converged = 0;
+  petsc(EPSGetConverged(solver, &converged));
+  PetscVector shape;
+  petsc(MatCreateVecs(stiffness_, shape.address(), nullptr));
+  std::vector<EigenPair> pairs(converged);
+  for (PetscInt i = 0; i < converged; ++i) {
+    petsc(EPSGetEigenpair(solver, i, &pairs[i].value, nullptr, shape, nullptr));
+    PetscInt size = 0;
+    const double* values = nullptr;
+    petsc(VecGetLocalSize(shape, &size));
+    petsc(VecGetArrayRead(shape, &values));
+    pairs[i].vector.assign(values, values + size);
+    petsc(VecRestoreArrayRead(shape, &values));
+  }
+  std::ranges::sort(pairs, {}, &EigenPair::value);
+  return pairs;
+}
+
+/// The nearest pairs on both sides of the shift are found; more of them until those wanted are among them.
+std::vector<EigenPair> Eigenmodes::find(const EigenRange& range) {
+  PetscInt equations = 0;
+  petsc(MatGetSize(stiffness_, &equations, nullptr));
+  const int below = count_below(range.shift);
+  const int below_wanted = range.lowest < range.shift ? below : 0;
+  for (int asked = std::min<PetscInt>(range.number + below_wanted, equations);; asked = std::min<PetscInt>(2 * asked, equations)) {
+    auto pairs = nearest(range.shift, asked);
+    const auto found_below = std::ranges::count_if(pairs, [&](const auto& pair) { return pair.value < range.shift; });
+    const bool past_lowest = !pairs.empty() && pairs.front().value < range.lowest;
+    const bool past_highest = !pairs.empty() && pairs.back().value > range.highest;
+    std::erase_if(pairs, [&](const auto& pair) { return pair.value < range.lowest || pair.value > range.highest; });
+    const bool enough = static_cast<int>(pairs.size()) >= range.number || past_highest || asked == equations;
+    if (enough && (found_below == below || past_lowest || asked == equations)) {
+      if (static_cast<int>(pairs.size()) > range.number) pairs.resize(range.number);
+      return pairs;
+    }
+    if (static_cast<int>(pairs.size()) < std::min(asked, range.number) && asked > 4 * range.number + 64)
+      throw AnalysisError(fmt::format("only {} of {} modes were found; ask for fewer, or choose another shift", pairs.size(),
+                                      range.number));
+  }
+}
+
+}  // namespace balocco

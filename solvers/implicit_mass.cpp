@@ -1,0 +1,69 @@
+#include "implicit_mass.hpp"
+
+#include "constraints/rigid_body.hpp"
+#include "elements/element_type.hpp"
+#include "math/rotation.hpp"
+
+namespace balocco {
+
+namespace {
+
+using Block = std::array<double, 9>;
+
+/// Calls `visit(motion, block)` for every inertia that this rank owns: 3 x 3, of a displacement or a spin.
+template <class Visit>
+void for_each_inertia(const Analysis& analysis, const ImplicitDofMap& map, Visit visit) {
+  const auto& domain = analysis.domain;
+  for (std::int32_t node = 0; node < domain.size(); ++node) {
+    const double mass = analysis.nodal_mass[node];
+    if (domain.owned[node] && mass > 0.0) visit(map.motion(node), Block{mass, 0.0, 0.0, 0.0, mass, 0.0, 0.0, 0.0, mass});
+  }
+  for (std::int32_t node = 0; node < domain.turning; ++node) {
+    const double inertia = analysis.rotary_inertia[node];
+    if (domain.owned[node] && inertia > 0.0)
+      visit(map.nodal_spin(node), Block{inertia, 0.0, 0.0, 0.0, inertia, 0.0, 0.0, 0.0, inertia});
+  }
+  for (const auto& [node, section, own] : analysis.rotary_tensors) {
+    if (!domain.owned[node]) continue;
+    const double* q = &analysis.current.orientation[4 * node];
+    const auto rotation = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
+    visit(map.nodal_spin(node), (rotation * own * transpose(rotation)).component);
+  }
+  const auto& model = analysis.model;
+  for (const auto& elements : model.elements) {
+    if (elements.type->section != Section::Kind::rotary_inertia) continue;
+    for (std::int32_t row = 0; row < elements.size(); ++row) {
+      const auto node = domain.local_node[elements.connectivity[row]];
+      if (node < 0 || !domain.owned[node] || analysis.reference_of(node) < 0) continue;
+      const auto body = analysis.reference_of(node);
+      const auto& given = model.sections[elements.section[row]].inertia;
+      const Matrix3<double> own{{given[0], given[3], given[4], given[3], given[1], given[5], given[4], given[5], given[2]}};
+      const auto rotation = rotation_matrix(analysis.current.rigid_bodies[body]);
+      visit(map.spin(body), (rotation * own * transpose(rotation)).component);
+    }
+  }
+}
+
+}  // namespace
+
+void assemble_mass(const Analysis& analysis, const ImplicitDofMap& map, ImplicitStiffness& mass) {
+  for_each_inertia(analysis, map, [&](const NodeMotion& motion, const Block&) { mass.add(std::span(&motion, 1), {}); });
+  mass.finish_pattern();
+  mass.start({});
+  for_each_inertia(analysis, map,
+                   [&](const NodeMotion& motion, const Block& block) { mass.add(std::span(&motion, 1), block); });
+  mass.finish();
+}
+
+double rigid_motion(const Analysis& analysis, const ImplicitDofMap& map, std::int32_t slot, int mode) {
+  const auto node = map.node_of(slot);
+  const auto& axes = map.directions(node);
+  const Point direction{axes(slot % 3, 0), axes(slot % 3, 1), axes(slot % 3, 2)};
+  if (map.is_rotation(slot)) return mode < 3 ? 0.0 : direction[mode - 3];
+  if (mode < 3) return direction[mode];
+  const double* x = &analysis.current.position[4 * node];
+  const int axis = mode - 3, next = (axis + 1) % 3, last = (axis + 2) % 3;
+  return direction[last] * x[next] - direction[next] * x[last];
+}
+
+}  // namespace balocco

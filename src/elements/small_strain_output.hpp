@@ -1,0 +1,37 @@
+// What elements show after geometrically linear steps: Taylor's polynomials, about the reference configuration, of what their
+// kernels compute at finite strain. Those of first order are small strain and the law's tangent times it; of energies the
+// quadratic ones. No element or law has to know.
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "elements/element_group.hpp"
+#include "model/state.hpp"
+
+namespace balocco {
+
+class SmallStrainOutput {
+ public:
+  /// `reference`: where the nodes are in the reference configuration, 4 values a node and a scratch node behind them.
+  explicit SmallStrainOutput(std::vector<double> reference) : reference_(std::move(reference)), trial_(reference_) {}
+
+  /// As ElementGroup::output. `history` is that of the reference configuration; the relative error is about 1e-11.
+  void output(const ElementGroup& group, std::string_view variable, std::int32_t element, int point, const State& state,
+              std::span<const double> history, std::span<double> values);
+  /// As ElementGroup::energies.
+  ElementEnergies energies(const ElementGroup& group, std::int32_t element, const State& state,
+                           std::span<const double> history);
+
+ private:
+  double step(const ElementGroup& group, std::int32_t element, const State& state) const;
+  NodalMotion place(const ElementGroup& group, std::int32_t element, const State& state, double factor);
+  template <class Evaluate>
+  void expand(const ElementGroup& group, std::int32_t element, const State& state, std::span<const double> history,
+              Evaluate evaluate, int order, std::span<double> values);
+
+  std::vector<double> reference_, trial_, trial_orientation_;
+  std::vector<double> trial_history_, force_;
+};
+
+}  // namespace balocco
