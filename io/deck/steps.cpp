@@ -74,7 +74,11 @@ void index_nodes(Builder& builder) {
 void begin_step(Builder& builder, const Block& block) {
   auto& draft = builder.draft;
   const bool nonlinear_before = draft.nonlinear_geometry;
-  draft = {.location = block.location, .nonlinear_geometry = nonlinear_before, .controls = draft.controls};
+  const auto controls_before = draft.controls;
+  draft = {};
+  draft.location = block.location;
+  draft.nonlinear_geometry = nonlinear_before;
+  draft.controls = controls_before;
   draft.amplitude = block.value("AMPLITUDE");
   builder.draft.faulty = builder.refused_steps.contains(&block);
   Step step;
