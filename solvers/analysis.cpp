@@ -195,9 +195,12 @@ const std::vector<double>& Analysis::partial_mass(std::int32_t element_set) cons
   return mass;
 }
 
-/// Steps are linear until one has large displacements, needs iterations for contact, or ties nodes where others have moved.
+/// Steps are linear until one has large displacements, needs iterations for contact, for laws that remember or for springs with
+/// tables, or ties nodes where others have moved.
 bool Analysis::stays_linear(const Step& step) const {
   if (!current.linear || step.is_perturbation()) return current.linear;
+  if (std::ranges::any_of(model.materials, [](const auto& material) { return !material.options.empty(); })) return false;
+  if (std::ranges::any_of(model.sections, [](const auto& section) { return !section.spring.table.empty(); })) return false;
   const auto* procedure = std::get_if<StaticProcedure>(&step.procedure);
   const bool ties_moved_nodes =
       current.total_time > 0.0 && std::ranges::any_of(step.attachments, [](const auto& change) { return !change.release; });

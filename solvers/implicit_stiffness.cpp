@@ -5,15 +5,27 @@
 
 namespace balocco {
 
+namespace {
+
+/// Whether the slots are the nodes' displacements along the global axes, so that blocks need no reduction.
+bool moves_plainly(std::span<const NodeMotion> motions) {
+  constexpr std::array<Point, 3> axes{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+  return std::ranges::all_of(motions, [&](const NodeMotion& motion) {
+    return motion.count == 3 && std::equal(axes.begin(), axes.end(), motion.direction.begin());
+  });
+}
+
+}  // namespace
+
 void ImplicitStiffness::add(std::span<const NodeMotion> motions, std::span<const double> block) {
   slots_.clear();
   for (const auto& motion : motions)
     slots_.insert(slots_.end(), motion.slots.begin(), motion.slots.begin() + motion.count);
   if (recording_) return record(slots_);
-  reduce(motions, block);
+  const double* const reduced = moves_plainly(motions) ? block.data() : reduce(motions, block);
   const auto size = slots_.size();
   for (std::size_t i = 0; i < size; ++i) {
-    const double* row = &reduced_[i * size];
+    const double* row = reduced + i * size;
     if (map_.equation(slots_[i]) >= 0)
       for (std::size_t j = 0; j < size; ++j)
         if (map_.equation(slots_[j]) >= 0) values_[next_++] = row[j];
@@ -32,7 +44,7 @@ void ImplicitStiffness::record(std::span<const std::int32_t> slots) {
 }
 
 /// transpose(A) * block * A, A being the directions in which the slots move the nodes.
-void ImplicitStiffness::reduce(std::span<const NodeMotion> motions, std::span<const double> block) {
+const double* ImplicitStiffness::reduce(std::span<const NodeMotion> motions, std::span<const double> block) {
   const auto size = slots_.size(), width = 3 * motions.size();
   reduced_.resize(size * size);
   std::size_t first_row = 0;
@@ -54,6 +66,7 @@ void ImplicitStiffness::reduce(std::span<const NodeMotion> motions, std::span<co
       }
     }
   }
+  return reduced_.data();
 }
 
 void ImplicitStiffness::finish_pattern() {

@@ -30,7 +30,7 @@ class ImplicitStiffness {
 
  private:
   void record(std::span<const std::int32_t> slots);
-  void reduce(std::span<const NodeMotion> motions, std::span<const double> block);
+  const double* reduce(std::span<const NodeMotion> motions, std::span<const double> block);
 
   const ImplicitDofMap& map_;
   const Communicator& communicator_;

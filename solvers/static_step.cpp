@@ -334,8 +334,8 @@ void StaticStep::fail(double time_increment, const std::string& reason) const {
 }
 
 void StaticStep::log_totals(double seconds) {
-  observer_.log(fmt::format("  {:.2f} s: {:.2f} s assembly, {:.2f} s linear solver", seconds,
-                            newton_.assembly_seconds(), solver_.seconds()));
+  observer_.log(fmt::format("  {:.2f} s: {:.2f} s assembly, {:.2f} s linear solver ({} matrix)", seconds,
+                            newton_.assembly_seconds(), solver_.seconds(), solver_.symmetric() ? "symmetric" : "unsymmetric"));
 }
 
 }  // namespace

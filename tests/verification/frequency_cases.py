@@ -1,0 +1,173 @@
+"""Natural modes against closed forms of the same discrete system, through the whole program on one and two ranks:
+frequency_cases.py CASE PROGRAM FOLDER. Lumped masses make the sums exact, so tolerances are those of the solver."""
+import math
+import sys
+
+import numpy as np
+
+from static_cases import ELASTIC
+from static_model import OUTPUT, Deck, Runner, brick, close
+
+YOUNG, AREA, DENSITY = 200.0, 0.5, 0.01
+ROD = "*SOLID SECTION, ELSET=ALL, MATERIAL=M\n%g\n*MATERIAL, NAME=M\n*ELASTIC\n%g, 0.\n*DENSITY\n%g" % (AREA, YOUNG, DENSITY)
+MODES = "*STEP, PERTURBATION\n*FREQUENCY%s\n%s\n%s*END STEP"
+
+
+def modes(results, step):
+    group = results.file["step_%d" % step]
+    names = sorted((n for n in group if n.startswith("mode_")), key=lambda n: int(n[5:]))
+    return [group[n] for n in names]
+
+
+def frequencies(results, step=1):
+    return [mode.attrs["frequency"] for mode in modes(results, step)]
+
+
+def run_alike(runner, name, deck, step):
+    """One and two ranks: the same frequencies."""
+    one, two = runner.run(name, deck, 1), runner.run(name, deck, 2)
+    largest = max(abs(mode.attrs["eigenvalue"]) for mode in modes(one, step))
+    for a, b in zip(modes(one, step), modes(two, step), strict=True):
+        assert abs(a.attrs["eigenvalue"] - b.attrs["eigenvalue"]) <= 1e-8 * largest, "ranks differ"
+    return one
+
+
+def rod(count, length):
+    deck = Deck()
+    for i in range(count + 1):
+        deck.add_node(i + 1, length * i / count, 0.0, 0.0)
+    deck.elements["T3D2"] = [(i + 1, [i + 1, i + 2]) for i in range(count)]
+    deck.sets["NALL"] = list(deck.nodes)
+    deck.add(ROD)
+    return deck
+
+
+def free_bar(runner):
+    """A bar free at both ends, its nodes on a line: f_k = sqrt(k / m) sin(k pi / 2n) / pi with half masses at the ends; the first
+    mode is the rigid motion and carries all the mass."""
+    count, length = 12, 6.0
+    deck = rod(count, length)
+    deck.add(MODES % (", NORMALIZATION=MASS", "5", "*BOUNDARY\nNALL, 2, 3\n"))
+    results = run_alike(runner, "bar", deck, 1)
+    spacing = length / count
+    scale = math.sqrt(YOUNG * AREA / spacing / (DENSITY * AREA * spacing)) / math.pi
+    found = frequencies(results)
+    assert len(found) == 5
+    close(found[0] / scale, 0.0, 1e-6, "rigid motion")
+    for k in range(1, 5):
+        close(found[k], scale * math.sin(k * math.pi / (2 * count)), 1e-9, "mode %d" % (k + 1))
+    mass = DENSITY * AREA * length
+    close(modes(results, 1)[0].attrs["effective_mass"][0], mass, 1e-9, "effective mass of the rigid motion")
+    close(modes(results, 1)[0].attrs["participation"][0], math.sqrt(mass), 1e-9, "its participation")
+    close(modes(results, 1)[1].attrs["effective_mass"][0] / mass, 0.0, 1e-9, "effective mass of the second mode")
+    for mode in modes(results, 1):
+        close(mode.attrs["generalized_mass"], 1.0, 1e-12, "generalised mass")
+
+
+def string(runner):
+    """A string pulled tight: f_k = sqrt(T / m h) sin(k pi / 2n) / pi, h the spacing of the stretched string, twice each (two planes).
+    The perturbation leaves the state alone: the static step behind it takes the pull back to nothing."""
+    count, length, stretch = 16, 8.0, 0.4
+    deck = rod(count, length)
+    deck.sets["MIDDLE"] = list(range(2, count + 1))
+    ends = "*BOUNDARY\n1, 1, 3\n%d, 2, 3\n%d, 1, 1, %g\nMIDDLE, 2, 3\n" % (count + 1, count + 1, stretch)
+    deck.add("*STEP, NLGEOM\n*STATIC\n" + ends + OUTPUT + "*END STEP")
+    deck.add(MODES % ("", "6", "*BOUNDARY, OP=NEW\n1, 1, 3\n%d, 1, 3\n" % (count + 1)))
+    deck.add("*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n%d, 1, 1, 0.\n" % (count + 1) + OUTPUT + "*END STEP")
+    results = run_alike(runner, "string", deck, 2)
+    tension = results.at(count + 1, "RF")[0]
+    spacing, mass = (length + stretch) / count, DENSITY * AREA * length / count
+    for i, found in enumerate(frequencies(results, 2)):
+        expected = math.sqrt(tension / (mass * spacing)) * math.sin((i // 2 + 1) * math.pi / (2 * count)) / math.pi
+        close(found, expected, 1e-7, "mode %d" % (i + 1))  # the state stands at 1e-9 of the forces
+    shape = modes(results, 2)[0]["node/U"][:]
+    close(np.abs(shape).max(), 1.0, 1e-12, "largest displacement")
+    close(np.abs(shape[[results.row[n] for n in (1, count + 1)]]).max(), 0.0, 1e-14, "ends")
+    close(np.abs(results.node("U", 3)).max() / stretch, 0.0, 1e-8, "displacement when let go")
+
+
+def hanging(gravity):
+    """A weight on a rigid arm of length 2 with rotary inertia about the pivot, in static equilibrium."""
+    deck = Deck()
+    deck.add_node(1, 0.0, 0.0, 0.0)
+    deck.add_node(2, 0.0, 0.0, -2.0)
+    deck.elements["MASS"] = [(1, [2])]
+    deck.add("*ELEMENT, TYPE=ROTARYI, ELSET=TURNING\n2, 1\n*ROTARY INERTIA, ELSET=TURNING\n0.5, 0.7, 0.2")
+    deck.add("*NSET, NSET=BOB\n2\n*MASS, ELSET=ALL\n3.\n*RIGID BODY, REF NODE=1, PIN NSET=BOB")
+    deck.add("*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n1, 1, 3\n1, 6, 6\n*DLOAD\nALL, GRAV, %g, 0., 0., -1.\n" % gravity + OUTPUT + "*END STEP")
+    deck.add(MODES % ("", "2", ""))
+    return deck
+
+
+def pendulum(runner):
+    """omega^2 = m g L / (J + m L^2) about either axis."""
+    results = run_alike(runner, "pendulum", hanging(9.81), 2)
+    for found, inertia in zip(frequencies(results, 2), (0.7, 0.5), strict=True):
+        close(found, math.sqrt(3.0 * 9.81 * 2.0 / (inertia + 3.0 * 4.0)) / (2 * math.pi), 1e-9, "frequency")
+    assert "the state is stable" in results.log, results.log
+
+
+def upside_down(runner):
+    """The pendulum on its head: omega^2 = -m g L / (J + m L^2), told as an instability."""
+    results = run_alike(runner, "upside_down", hanging(-9.81), 2)
+    for mode, inertia in zip(modes(results, 2), (0.5, 0.7), strict=True):
+        close(mode.attrs["eigenvalue"], -3.0 * 9.81 * 2.0 / (inertia + 3.0 * 4.0), 1e-9, "eigenvalue")
+        assert mode.attrs["frequency"] == 0.0
+    assert "the state is unstable: 2 of its eigenvalues are negative" in results.log, results.log
+
+
+def bounds(runner):
+    """Of a fixed bar, f_k = sqrt(k / m) sin((2k - 1) pi / 4n) / pi, those in a range; at most so many; around a shift."""
+    count, length = 12, 6.0
+    spacing = length / count
+    scale = math.sqrt(YOUNG * AREA / spacing / (DENSITY * AREA * spacing)) / math.pi
+    exact = [scale * math.sin((2 * k - 1) * math.pi / (4 * count)) for k in range(1, count + 1)]
+    between = "%.9g, %.9g" % (0.5 * (exact[1] + exact[2]), 0.5 * (exact[6] + exact[7]))
+    for i, (options, line, expected) in enumerate((("", ", " + between, exact[2:7]), ("", "3, " + between, exact[2:5]),
+                                                   (", EIGENSOLVER=SUBSPACE", "4", exact[:4]),
+                                                   ("", "3, , , %.9g" % exact[5] ** 2.1, exact[:3]))):
+        deck = rod(count, length)
+        deck.add(MODES % (options, line, "*BOUNDARY\nNALL, 2, 3\n1, 1, 1\n"))
+        found = frequencies(run_alike(runner, "bounds_%d" % i, deck, 1))
+        assert len(found) == len(expected), "%s: %d modes" % (line, len(found))
+        for a, b in zip(found, expected):
+            close(a, b, 1e-9, "frequency for %s" % line)
+
+
+def free_cube(runner):
+    """A cube in the air: six rigid motions, which carry its mass and, in all, its inertia; the rest moves against itself."""
+    for kind in ("C3D8", "C3D8R"):
+        deck = brick((3, 3, 3), (1.0, 1.0, 1.0), kind, lambda x, y, z: (x - 0.5, y - 0.5, z - 0.5))
+        deck.add(ELASTIC.format(young=1000.0, poisson=0.3).rstrip() + "\n*DENSITY\n2.")
+        deck.add(MODES % ("", "9", ""))
+        results = run_alike(runner, "cube_" + kind, deck, 1)
+        found = modes(results, 1)
+        for mode in found[:6]:
+            close(mode.attrs["eigenvalue"] / found[6].attrs["eigenvalue"], 0.0, 1e-6, "rigid motion")
+        total = sum(mode.attrs["effective_mass"][:] for mode in found[:6])
+        # Lumped masses of 3 cells a side: sum of m x^2 = M (1/4 * 1/3 + 1/36 * 2/3).
+        inertia = 2.0 * 2.0 * (0.25 / 3.0 + 1.0 / 54.0)
+        for value, expected in zip(total, [2.0] * 3 + [inertia] * 3):
+            close(value, expected, 1e-8, "effective mass of all rigid motions")
+        close(np.abs(found[6].attrs["effective_mass"][:3]).max(), 0.0, 1e-8, "effective mass of the first that deforms")
+
+
+def cantilever_modes(runner):
+    """Bending of a slender cantilever, f = (1.8751^2, 4.6941^2) sqrt(E I / m L^4) / 2 pi in both planes, to what 40 reduced bricks
+    with assumed bending strain and the shear that the formula leaves out are good for."""
+    length, depth, width, young, density = 20.0, 0.5, 0.4, 1e6, 1e-3
+    deck = brick((40, 1, 1), (length, width, depth))
+    deck.sets["ROOT"] = deck.where(lambda x, y, z: x < 1e-9)
+    deck.add(ELASTIC.format(young=young, poisson=0.0).rstrip() + "\n*DENSITY\n%g" % density)
+    deck.add(MODES % ("", "4", "*BOUNDARY\nROOT, 1, 3\n"))
+    found = frequencies(run_alike(runner, "cantilever", deck, 1))
+    formula = lambda root, thickness: root**2 / length**2 * math.sqrt(young * thickness**2 / 12.0 / density) / (2 * math.pi)
+    for got, expected in zip(found, (formula(1.8751, width), formula(1.8751, depth), formula(4.6941, width), formula(4.6941, depth))):
+        close(got, expected, 2e-2, "frequency")
+
+
+CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube)}
+CASES["cantilever"] = cantilever_modes
+
+if __name__ == "__main__":
+    CASES[sys.argv[1]](Runner(sys.argv[2], sys.argv[3]))
