@@ -278,6 +278,27 @@ void Analysis::index_rigid_nodes() {
       if (carried.tie) turning_body_[node] = static_cast<std::int32_t>(body);
     }
   }
+  find_acting_elements();
+}
+
+/// An element all whose nodes move, and turn if they do, with one rigid body cannot strain: it rests. One that holds a single node
+/// strains against the ground.
+void Analysis::find_acting_elements() {
+  for (const auto& group : element_groups) {
+    const bool turns = group->freedoms_per_node() > 3;
+    const auto body_of = [&](std::int32_t node) {
+      if (turns) return turning_body_[node];
+      return carrier_[node] >= 0 ? carrier_[node] : reference_of_[node];
+    };
+    std::vector<bool> acting(static_cast<std::size_t>(group->size()), true);
+    for (std::int32_t element = 0; element < group->size() && group->nodes_per_element() > 1; ++element) {
+      const auto nodes = group->nodes(element);
+      const auto body = body_of(nodes[0]);
+      acting[element] =
+          body < 0 || !std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return body_of(node) == body; });
+    }
+    group->set_acting(std::move(acting));
+  }
 }
 
 void Analysis::place_rigid_nodes(std::vector<double>& position) const {

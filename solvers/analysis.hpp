@@ -98,6 +98,7 @@ class Analysis : public ResultSource {
   void sum_masses();
   EnergyBalance sum_energies() const;
   void apply_attachments(const Step& step);
+  void find_acting_elements();
   void add_kinetic_energy_of_rotary_inertia(ExactSum& sum) const;
   void sum_rotary_inertia();
 

@@ -24,6 +24,7 @@ void compute_forces(ExplicitStep& cycle) {
 /// Forces at the very start act where the steps before left the nodes: nothing moves yet.
 void start(ExplicitStep& cycle) {
   cycle.prepare_start();
+  cycle.log_resting_elements();
   compute_forces(cycle);
   cycle.add_stiff_contact();
   cycle.sum_body_forces();

@@ -109,6 +109,19 @@ void ExplicitStep::log_balance() {
                   step_.name, residual / external, external));
 }
 
+void ExplicitStep::log_resting_elements() const {
+  std::int64_t all = 0, acting = 0;
+  for (const auto& group : analysis_.element_groups) {
+    all += group->size();
+    acting += group->acting_count();
+  }
+  all = analysis_.communicator.sum(all);
+  acting = analysis_.communicator.sum(acting);
+  if (acting == all) return;
+  observer_.log(fmt::format("step {}: {} of {} elements move with rigid bodies: they are not computed and bound no increment",
+                            step_.name, all - acting, all));
+}
+
 void ExplicitStep::log_timers() const {
   std::int64_t elements = 0;
   for (const auto& group : analysis_.element_groups) elements += group->size();

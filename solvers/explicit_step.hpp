@@ -30,6 +30,7 @@ class ExplicitStep {
   void prepare_start();
   /// Tells how far the state is from equilibrium: exactly zero but for the tolerance of the steps before.
   void log_balance();
+  void log_resting_elements() const;
 
   void advance_positions();
   void begin_external_loads();

@@ -32,14 +32,60 @@ ElementGroup::ElementGroup(const GroupInput& input)
       freedoms_per_node_(input.model.elements[input.table].type->turns ? 6 : 3),
       rows_(input.rows),
       connectivity_(input.connectivity),
-      scatter_(input.connectivity) {
+      scratch_node_(input.scratch_node) {
   for (std::int32_t lane = size_; lane < padded_size_; ++lane) {
     rows_.push_back(input.rows.back());
-    for (int i = 0; i < nodes_per_element_; ++i) {
+    for (int i = 0; i < nodes_per_element_; ++i)
       connectivity_.push_back(input.connectivity[(size_ - 1) * nodes_per_element_ + i]);
-      scatter_.push_back(input.scratch_node);
-    }
   }
+  set_acting({});
+}
+
+void ElementGroup::set_acting(std::vector<bool> acting) {
+  acting_ = std::move(acting);
+  if (!acting_.empty()) acting_.resize(padded_size_, acting_.back());
+  scatter_ = connectivity_;
+  for (std::int32_t lane = 0; lane < padded_size_; ++lane)
+    if (lane >= size_ || !acts(lane))
+      std::fill_n(&scatter_[static_cast<std::size_t>(lane) * nodes_per_element_], nodes_per_element_, scratch_node_);
+  interface_work_ = work_of(0, interface_padded_);
+  interior_work_ = work_of(interface_padded_, padded_size_);
+}
+
+std::int32_t ElementGroup::acting_count() const {
+  std::int32_t count = 0;
+  for (std::int32_t element = 0; element < size_; ++element) count += acts(element) ? 1 : 0;
+  return count;
+}
+
+ElementGroup::Work ElementGroup::work_of(std::int32_t first, std::int32_t last) const {
+  Work work;
+  for (std::int32_t pack = first; pack < last; pack += pack_size) {
+    std::vector<std::int32_t> resting;
+    for (std::int32_t lane = pack; lane < pack + pack_size; ++lane)
+      if (!acts(lane)) resting.push_back(lane);
+    if (resting.size() == pack_size) continue;
+    work.resting.insert(work.resting.end(), resting.begin(), resting.end());
+    if (work.runs.empty() || work.runs.back().last != pack) work.runs.push_back({pack, pack});
+    work.runs.back().last = pack + pack_size;
+  }
+  return work;
+}
+
+StableIncrement ElementGroup::add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const {
+  const Work& work = portion == Portion::interface ? interface_work_ : interior_work_;
+  const auto components = static_cast<std::size_t>(work.resting.empty() ? 0 : history_size());
+  const auto at = [&](std::size_t component, std::int32_t lane) -> double& {
+    return history[component * static_cast<std::size_t>(padded_size_) + static_cast<std::size_t>(lane)];
+  };
+  kept_history_.clear();
+  for (std::size_t component = 0; component < components; ++component)
+    for (const auto lane : work.resting) kept_history_.push_back(at(component, lane));
+  const StableIncrement smallest = add_forces(work.runs, cycle, history);
+  auto kept = kept_history_.begin();
+  for (std::size_t component = 0; component < components; ++component)
+    for (const auto lane : work.resting) at(component, lane) = *kept++;
+  return smallest;
 }
 
 std::vector<double> ElementGroup::initial_history() const {

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "elements/nodal_motion.hpp"
+#include "math/pack.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -63,7 +64,13 @@ struct Restraint {
   double force = 0.0;      // of a table
 };
 
+/// Elements that touch nodes shared with other ranks, and the others.
 enum class Portion { interface, interior };
+
+/// Lanes first .. last - 1 of a group, whole packs.
+struct PackRun {
+  std::int32_t first = 0, last = 0;
+};
 
 class ElementGroup {
  public:
@@ -99,9 +106,20 @@ class ElementGroup {
   /// Lumped rotary inertia of each node, the same about all axes (mass x length^2); asked only where nodes turn.
   virtual void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const;
 
-  /// Adds external - internal forces of a portion of the elements, updates their history in place and returns the smallest
-  /// stable increment (2 / omega_max of a free element, with damping). Nothing allocates, throws or branches per element.
-  virtual StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const = 0;
+  /// Which elements act in explicit cycles from now on, one flag an element; empty: all (as at first). The others rest, because
+  /// one rigid body carries them or they are out of the model: they are not computed, bound no increment and keep their history.
+  void set_acting(std::vector<bool> acting);
+  /// Lanes < padded_size(); a padded lane does what the last element does.
+  bool acts(std::int32_t lane) const { return acting_.empty() || acting_[lane]; }
+  std::int32_t acting_count() const;
+
+  /// Adds external - internal forces of the acting elements of a portion, updates their history in place and returns their
+  /// smallest stable increment (2 / omega_max of a free element, with damping).
+  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const;
+  /// The kernel: all lanes of the runs, of which resting ones scatter to the scratch node (`scatter_`) and merge no increment
+  /// (`merge`); what it does to their history is undone. Nothing allocates, throws or branches per element.
+  virtual StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                                     std::span<double> history) const = 0;
 
   /// Internal force of one element (freedoms_per_node() a node: force, moment) where its nodes are, its exact derivative
   /// (row-major, square) unless `stiffness` is empty, and the history after an increment that started from `old_history`.
@@ -127,6 +145,13 @@ class ElementGroup {
   virtual std::size_t bytes_per_element() const = 0;
 
  protected:
+  /// Merges the increments of the pack that starts at lane `first`.
+  void merge(const Pack& increments, std::int32_t first, StableIncrement& smallest) const {
+    if (std::experimental::all_of(increments >= Pack(smallest.increment))) return;
+    for (int lane = 0; lane < pack_size; ++lane)
+      if (acts(first + lane)) smallest.merge({increments[lane], first + lane});
+  }
+
   virtual int point_components(std::string_view variable) const = 0;
   virtual void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                             std::span<const double> history, std::span<double> values) const = 0;
@@ -135,7 +160,20 @@ class ElementGroup {
   int nodes_per_element_, freedoms_per_node_;
   std::vector<std::int32_t> rows_;          // padded
   std::vector<std::int32_t> connectivity_;  // padded, scratch node never inside: padded lanes GATHER from a real element
-  std::vector<std::int32_t> scatter_;       // as connectivity_, but padded lanes point to the scratch node
+  std::vector<std::int32_t> scatter_;       // as connectivity_, but padded and resting lanes point to the scratch node
+
+ private:
+  /// What a portion computes: packs in which an element acts, and the resting lanes among them.
+  struct Work {
+    std::vector<PackRun> runs;
+    std::vector<std::int32_t> resting;
+  };
+  Work work_of(std::int32_t first, std::int32_t last) const;
+
+  std::int32_t scratch_node_;
+  std::vector<bool> acting_;  // padded; empty: all
+  Work interface_work_, interior_work_;
+  mutable std::vector<double> kept_history_;  // of resting lanes while their pack is computed
 };
 
 }  // namespace balocco

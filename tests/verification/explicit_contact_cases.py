@@ -134,8 +134,22 @@ def below_the_ground(job):
     check("warning", float("node 1 of SLAVE starts 0.25 below GROUND" in job.log()), 1.0, 0.0)
 
 
+def rigid_part(job):
+    """A part carried by a rigid body is not computed; released, it goes on from the very history that it had."""
+    deck = block(9, 1, 1, (1.0, 1.0, 1.0), height=9.0, law="*ELASTIC\n70000., 0.3", density=2.7e-9)
+    deck += "*NODE, NSET=HUB\n9100, 0., 9., 0.\n*RIGID BODY, REF NODE=9100\n*BOUNDARY\n9100, 1, 6\n"
+    deck += "*NSET, NSET=PART\n" + "".join(f"{n}\n" for n in range(1, 41) if (n - 1) % 10 < 6)
+    history = "*OUTPUT, HISTORY, FREQUENCY=1\n*ENERGY OUTPUT\nALLIE, ALLVD, ALLKE, ALLWK, ETOTAL\n*END STEP\n"
+    steps = ["*INITIAL CONDITIONS, TYPE=VELOCITY\nTOP, 2, -1e4\n*STEP\n*DYNAMIC, EXPLICIT, DIRECT\n5e-8, 1e-5\n" + history]
+    steps.append("*STEP\n*DYNAMIC, EXPLICIT, DIRECT\n5e-8, 1e-6\n*RIGID BODY, REF NODE=9100, TIE NSET=PART\n" + history)
+    steps.append("*STEP\n*DYNAMIC, EXPLICIT, DIRECT\n5e-8, 1e-5\n*RIGID BODY, REF NODE=9100, RELEASE NSET=PART\n" + history)
+    job.run(deck + "".join(steps))
+    check("resting elements told", float("5 of 9 elements move with rigid bodies" in job.log()), 1.0, 0.0)
+    check("a run that resumes", float(np.isfinite(job.history("energy", "ETOTAL", 3)[1]).all()), 1.0, 0.0)
+
+
 CASES = {case.__name__: case for case in (bouncing_plate, pressed_block, lifted_block, velocities_set_once, lost_energy,
-                                          blown_up_at_the_end, past_the_end, below_the_ground)}
+                                          blown_up_at_the_end, past_the_end, below_the_ground, rigid_part)}
 
 if __name__ == "__main__":
     case, balocco, ranks, folder = sys.argv[1:]

@@ -166,36 +166,37 @@ void MembraneGroup<corners, points>::finish(const Block& block, const ExplicitCy
     scatter_subtract(on_first, scatter, corners, cycle.forces.force);
     store_unaligned(load_unaligned(dissipation + element) + block.dissipated[pack], dissipation + element);
 
-    const Pack increment = stable_increment(block, pack, cycle);
-    if (any_of(increment < Pack(stable.increment)))
-      for (int lane = 0; lane < pack_size; ++lane)
-        if (increment[lane] < stable.increment) stable = {increment[lane], element + lane};
+    merge(stable_increment(block, pack, cycle), element, stable);
   }
 }
 
 template <int corners, int points>
-StableIncrement MembraneGroup<corners, points>::add_forces(Portion portion, const ExplicitCycle& cycle,
+StableIncrement MembraneGroup<corners, points>::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                                                          std::span<double> history) const {
-  const std::int32_t begin = portion == Portion::interface ? 0 : interface_padded_;
-  const std::int32_t end = portion == Portion::interface ? interface_padded_ : padded_size_;
   StableIncrement stable;
   Block block;
-  for (block.first = begin; block.first < end; block.first += block_capacity) {
-    block.packs = std::min(block_capacity, end - block.first) / pack_size;
-    for (int pack = 0; pack < block.packs; ++pack) {
-      const std::int32_t* const node = connectivity_.data() + (block.first + pack * pack_size) * corners;
-      const Vector3<Pack> origin = gather(cycle.motion.position, node, corners);
-      for (int i = 0; i < Layout::edges; ++i) {
-        block.edge[pack][i] = gather(cycle.motion.position, node + i + 1, corners) - origin;
-        block.force[pack][i] = {};
-      }
-      block.mean_tangents[pack] = {};
-      block.modulus[pack] = block.tension[pack] = block.dissipated[pack] = 0.0;
+  for (const auto& run : runs)
+    for (block.first = run.first; block.first < run.last; block.first += block_capacity) {
+      block.packs = std::min(block_capacity, run.last - block.first) / pack_size;
+      begin(block, cycle);
+      for (int point = 0; point < points; ++point) add_point(point, block, cycle, history);
+      finish(block, cycle, history, stable);
     }
-    for (int point = 0; point < points; ++point) add_point(point, block, cycle, history);
-    finish(block, cycle, history, stable);
-  }
   return stable;
+}
+
+template <int corners, int points>
+void MembraneGroup<corners, points>::begin(Block& block, const ExplicitCycle& cycle) const {
+  for (int pack = 0; pack < block.packs; ++pack) {
+    const std::int32_t* const node = connectivity_.data() + (block.first + pack * pack_size) * corners;
+    const Vector3<Pack> origin = gather(cycle.motion.position, node, corners);
+    for (int i = 0; i < Layout::edges; ++i) {
+      block.edge[pack][i] = gather(cycle.motion.position, node + i + 1, corners) - origin;
+      block.force[pack][i] = {};
+    }
+    block.mean_tangents[pack] = {};
+    block.modulus[pack] = block.tension[pack] = block.dissipated[pack] = 0.0;
+  }
 }
 
 template <int corners, int points>

@@ -20,7 +20,8 @@ class MembraneGroup final : public ElementGroup {
   int history_size() const override;
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
-  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                             std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;
@@ -47,6 +48,7 @@ class MembraneGroup final : public ElementGroup {
   std::array<Pack, 3> viscous_stress(Block& block, int pack, int point, const Metric<Pack>& stretch,
                                      const ExplicitCycle& cycle, std::span<double> history) const;
   Pack stable_increment(const Block& block, int pack, const ExplicitCycle& cycle) const;
+  void begin(Block& block, const ExplicitCycle& cycle) const;
   void finish(const Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
 
   template <class T>

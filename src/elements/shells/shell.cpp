@@ -206,49 +206,49 @@ void ShellGroup<corners, points>::finish(Block& block, const ExplicitCycle& cycl
     for (int i = 0; i < corners; ++i) scatter_subtract(nodal.moment[i], scatter + i, corners, cycle.forces.moment);
     store_unaligned(load_unaligned(dissipation + element) + block.dissipated[pack], dissipation + element);
 
-    const Pack increment = stable_increment(block, pack, cycle);
-    if (any_of(increment < Pack(stable.increment)))
-      for (int lane = 0; lane < pack_size; ++lane)
-        if (increment[lane] < stable.increment) stable = {increment[lane], element + lane};
+    merge(stable_increment(block, pack, cycle), element, stable);
   }
 }
 
 template <int corners, int points>
-StableIncrement ShellGroup<corners, points>::add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const {
-  const std::int32_t begin = portion == Portion::interface ? 0 : interface_padded_;
-  const std::int32_t end = portion == Portion::interface ? interface_padded_ : padded_size_;
+StableIncrement ShellGroup<corners, points>::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                                                        std::span<double> history) const {
   StableIncrement stable;
   Block block;
-  for (block.first = begin; block.first < end; block.first += block_capacity) {
-    block.packs = std::min(block_capacity, end - block.first) / pack_size;
-    for (int pack = 0; pack < block.packs; ++pack) {
-      const std::int32_t* const node = connectivity_.data() + (block.first + pack * pack_size) * corners;
-      const double* const data = record(block.first + pack * pack_size);
-      const Vector3<Pack> origin = gather(cycle.motion.position, node, corners);
-      typename ShellKernel<Pack, corners>::Edges edge;
-      Rotations<Pack> rotation;
-      for (int i = 0; i < corners; ++i) {
-        if (i > 0) edge[i - 1] = gather(cycle.motion.position, node + i, corners) - origin;
-        rotation[i] = rotation_matrix<Pack>(gather_four(cycle.motion.orientation, node + i, corners));
+  for (const auto& run : runs)
+    for (block.first = run.first; block.first < run.last; block.first += block_capacity) {
+      block.packs = std::min(block_capacity, run.last - block.first) / pack_size;
+      for (int pack = 0; pack < block.packs; ++pack) begin(pack, block, cycle);
+      for (int point = 0; point < points; ++point) {
+        for (int pack = 0; pack < block.packs; ++pack)
+          block.here[pack] = strain_at<Pack>(record(block.first + pack * pack_size), point, block.strain[pack]);
+        section_.linear ? add_linear_point(point, block) : add_layers(point, block, cycle.increment, history);
+        for (int pack = 0; pack < block.packs; ++pack)
+          add_resultants<Pack>(record(block.first + pack * pack_size), point, block.resultants[pack], block.stress[pack]);
       }
-      block.kernel[pack].set(data, edge, rotation);
-      block.strain[pack] = block.kernel[pack].strains();
-      block.stress[pack] = {};
-      block.kernel[pack].add_elastic(block.strain[pack], block.stress[pack]);
-      add_hourglass<Pack>(data, block.strain[pack], block.stress[pack]);
-      block.stiffening[pack] = 1.0;
-      block.tension[pack] = 0.0;
+      finish(block, cycle, history, stable);
     }
-    for (int point = 0; point < points; ++point) {
-      for (int pack = 0; pack < block.packs; ++pack)
-        block.here[pack] = strain_at<Pack>(record(block.first + pack * pack_size), point, block.strain[pack]);
-      section_.linear ? add_linear_point(point, block) : add_layers(point, block, cycle.increment, history);
-      for (int pack = 0; pack < block.packs; ++pack)
-        add_resultants<Pack>(record(block.first + pack * pack_size), point, block.resultants[pack], block.stress[pack]);
-    }
-    finish(block, cycle, history, stable);
-  }
   return stable;
+}
+
+template <int corners, int points>
+void ShellGroup<corners, points>::begin(int pack, Block& block, const ExplicitCycle& cycle) const {
+  const std::int32_t* const node = connectivity_.data() + (block.first + pack * pack_size) * corners;
+  const double* const data = record(block.first + pack * pack_size);
+  const Vector3<Pack> origin = gather(cycle.motion.position, node, corners);
+  typename ShellKernel<Pack, corners>::Edges edge;
+  Rotations<Pack> rotation;
+  for (int i = 0; i < corners; ++i) {
+    if (i > 0) edge[i - 1] = gather(cycle.motion.position, node + i, corners) - origin;
+    rotation[i] = rotation_matrix<Pack>(gather_four(cycle.motion.orientation, node + i, corners));
+  }
+  block.kernel[pack].set(data, edge, rotation);
+  block.strain[pack] = block.kernel[pack].strains();
+  block.stress[pack] = {};
+  block.kernel[pack].add_elastic(block.strain[pack], block.stress[pack]);
+  add_hourglass<Pack>(data, block.strain[pack], block.stress[pack]);
+  block.stiffening[pack] = 1.0;
+  block.tension[pack] = 0.0;
 }
 
 template <int corners, int points>

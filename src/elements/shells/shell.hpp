@@ -24,7 +24,8 @@ class ShellGroup final : public ElementGroup {
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
   void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const override;
-  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                             std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;
@@ -84,6 +85,7 @@ class ShellGroup final : public ElementGroup {
   void add_layers(int point, Block& block, double increment, std::span<double> history) const;
   void add_viscosity(Block& block, int pack, const ExplicitCycle& cycle, std::span<double> history) const;
   Pack stable_increment(const Block& block, int pack, const ExplicitCycle& cycle) const;
+  void begin(int pack, Block& block, const ExplicitCycle& cycle) const;
   void finish(Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
 
   ShellSection section_;

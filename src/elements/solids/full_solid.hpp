@@ -27,7 +27,8 @@ class FullSolid final : public ElementGroup {
   void lumped_mass(std::int32_t element, std::span<double> mass) const override {
     std::fill(mass.begin(), mass.end(), material_.density * reference(element)[Record::volume] / Shape::nodes);
   }
-  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                             std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion,

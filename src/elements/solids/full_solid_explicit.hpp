@@ -79,17 +79,13 @@ FullSolid<Shape>::FullSolid(const GroupInput& input)
 }
 
 template <class Shape>
-StableIncrement FullSolid<Shape>::add_forces(Portion portion, const ExplicitCycle& cycle,
+StableIncrement FullSolid<Shape>::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                                              std::span<double> history) const {
-  const std::int32_t first = portion == Portion::interface ? 0 : interface_padded_;
-  const std::int32_t last = portion == Portion::interface ? interface_padded_ : padded_size_;
   StableIncrement smallest;
   PointBatch<PointKind::solid> points;
-  for (std::int32_t element = first; element < last; element += pack_size) {
-    const Pack increment = add_pack(element, cycle, points, history);
-    if (std::experimental::all_of(increment >= smallest.increment)) continue;
-    for (int i = 0; i < pack_size; ++i) smallest.merge({increment[i], element + i});
-  }
+  for (const auto& run : runs)
+    for (std::int32_t element = run.first; element < run.last; element += pack_size)
+      merge(add_pack(element, cycle, points, history), element, smallest);
   return smallest;
 }
 

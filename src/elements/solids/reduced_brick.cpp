@@ -54,19 +54,16 @@ void ReducedBrick::lumped_mass(std::int32_t element, std::span<double> mass) con
   std::fill(mass.begin(), mass.end(), material_.density * reference(element)[brick_record::volume] / nodes_per_brick);
 }
 
-StableIncrement ReducedBrick::add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const {
-  const std::int32_t first = portion == Portion::interface ? 0 : interface_padded_;
-  const std::int32_t last = portion == Portion::interface ? interface_padded_ : padded_size_;
+StableIncrement ReducedBrick::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                                         std::span<double> history) const {
   const bool damped = material_.damping_beta > 0.0 && cycle.increment > 0.0;
   if (damped)
-    return enhanced_ ? add_packs<true, true>(first, last, cycle, history)
-                     : add_packs<false, true>(first, last, cycle, history);
-  return enhanced_ ? add_packs<true, false>(first, last, cycle, history)
-                   : add_packs<false, false>(first, last, cycle, history);
+    return enhanced_ ? add_packs<true, true>(runs, cycle, history) : add_packs<false, true>(runs, cycle, history);
+  return enhanced_ ? add_packs<true, false>(runs, cycle, history) : add_packs<false, false>(runs, cycle, history);
 }
 
 template <bool enhanced, bool damped>
-StableIncrement ReducedBrick::add_packs(std::int32_t first, std::int32_t last, const ExplicitCycle& cycle,
+StableIncrement ReducedBrick::add_packs(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                                         std::span<double> history) const {
   StableIncrement smallest;
   PointBatch<PointKind::solid> points;
@@ -74,12 +71,11 @@ StableIncrement ReducedBrick::add_packs(std::int32_t first, std::int32_t last, c
       pack_size;  // one pack at a time stays in L1 together with its record: measured faster than batches of 64
   points.history_stride = padded_size_;
   points.increment = cycle.increment;
-  for (std::int32_t element = first; element < last; element += pack_size) {
-    points.history = history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + element;
-    const Pack increment = add_pack<enhanced, damped>(element, cycle, points, history);
-    if (std::experimental::all_of(increment >= smallest.increment)) continue;
-    for (int i = 0; i < pack_size; ++i) smallest.merge({increment[i], element + i});
-  }
+  for (const auto& run : runs)
+    for (std::int32_t element = run.first; element < run.last; element += pack_size) {
+      points.history = history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + element;
+      merge(add_pack<enhanced, damped>(element, cycle, points, history), element, smallest);
+    }
   return smallest;
 }
 

@@ -19,7 +19,8 @@ class ReducedBrick final : public ElementGroup {
   int history_size() const override { return own_history + material_.law->history_size(); }
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
-  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                             std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion,
@@ -34,7 +35,7 @@ class ReducedBrick final : public ElementGroup {
   static constexpr int own_history = 2;  // Jacobian after the last increment, viscous dissipation; then the law's
 
   template <bool enhanced, bool damped>
-  StableIncrement add_packs(std::int32_t first, std::int32_t last, const ExplicitCycle& cycle,
+  StableIncrement add_packs(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                             std::span<double> history) const;
   template <bool enhanced, bool damped>
   Pack add_pack(std::int32_t element, const ExplicitCycle& cycle, PointBatch<PointKind::solid>& points,

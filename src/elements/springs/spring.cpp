@@ -102,19 +102,22 @@ SpringGroup::Pull SpringGroup::pull(double elongation, double old_elongation, do
   return {force, slope / increment};
 }
 
-StableIncrement SpringGroup::add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const {
-  const std::int32_t begin = portion == Portion::interface ? 0 : interface_padded_;
-  const std::int32_t end = std::min(portion == Portion::interface ? interface_padded_ : padded_size_, size_);
-  for (std::int32_t element = begin; element < end; ++element) {
-    const auto row = [&](int component) -> double& { return history[component * std::size_t(padded_size_) + element]; };
-    const Elongation now = elongation(element, cycle.motion);
-    const double force = pull(now.value, row(elongation_row), cycle.increment).force;
-    if (viscous_) row(dissipation_row) += 0.5 * (row(force_row) + force) * (now.value - row(elongation_row));
-    row(elongation_row) = now.value;
-    row(force_row) = force;
-    for (int n = 0; n < nodes_per_element_; ++n) subtract(force * now.gradient[n], nodes(element)[n], cycle.forces.force);
-  }
+StableIncrement SpringGroup::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                                        std::span<double> history) const {
+  for (const auto& run : runs)
+    for (std::int32_t element = run.first; element < std::min(run.last, size_); ++element)
+      if (acts(element)) add_force(element, cycle, history);
   return {};  // no mass, no frequency: see restraint
+}
+
+void SpringGroup::add_force(std::int32_t element, const ExplicitCycle& cycle, std::span<double> history) const {
+  const auto row = [&](int component) -> double& { return history[component * std::size_t(padded_size_) + element]; };
+  const Elongation now = elongation(element, cycle.motion);
+  const double force = pull(now.value, row(elongation_row), cycle.increment).force;
+  if (viscous_) row(dissipation_row) += 0.5 * (row(force_row) + force) * (now.value - row(elongation_row));
+  row(elongation_row) = now.value;
+  row(force_row) = force;
+  for (int n = 0; n < nodes_per_element_; ++n) subtract(force * now.gradient[n], nodes(element)[n], cycle.forces.force);
 }
 
 bool SpringGroup::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,

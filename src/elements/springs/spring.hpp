@@ -25,7 +25,8 @@ class SpringGroup final : public ElementGroup {
   int history_size() const override { return 3; }
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
-  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                             std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;
@@ -47,6 +48,7 @@ class SpringGroup final : public ElementGroup {
   void find_axial_lengths(const GroupInput& input);
   void find_directions(const GroupInput& input);
   Elongation elongation(std::int32_t element, const NodalMotion& motion) const;
+  void add_force(std::int32_t element, const ExplicitCycle& cycle, std::span<double> history) const;
   Pull pull(double elongation, double old_elongation, double increment) const;
   int point_components(std::string_view variable) const override;
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,

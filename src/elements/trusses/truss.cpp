@@ -119,36 +119,39 @@ TrussGroup::Pulled TrussGroup::pull(const Batch& batch, std::int32_t first, int 
   return {stress + viscous, 2.0 * (square_root(1.0 + ratio * ratio) - ratio) / omega};
 }
 
-StableIncrement TrussGroup::add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const {
-  const std::int32_t begin = portion == Portion::interface ? 0 : interface_padded_;
-  const std::int32_t end = portion == Portion::interface ? interface_padded_ : padded_size_;
+StableIncrement TrussGroup::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                                       std::span<double> history) const {
   StableIncrement stable;
-  Batch batch;
-  Vector3<Pack> axis[block_capacity / pack_size];
-  for (std::int32_t first = begin; first < end; first += block_capacity) {
-    batch.count = std::min(block_capacity, end - first);
-    for (int slot = 0; slot < batch.count; slot += pack_size) {
-      const std::int32_t* const node = connectivity_.data() + 2 * (first + slot);
-      const Pack length = load(length_.data() + first + slot);
-      axis[slot / pack_size] = gather(cycle.motion.position, node + 1, 2) - gather(cycle.motion.position, node, 2);
-      store(truss_strain(axis[slot / pack_size], Pack(1.0 / (length * length))), batch.strain[0] + slot);
-    }
-    batch.history = history.data() + first;
-    batch.history_stride = padded_size_;
-    batch.increment = cycle.increment;
-    law_->stress(batch);
-    for (int slot = 0; slot < batch.count; slot += pack_size) {
-      const Pulled pulled = pull(batch, first, slot, cycle, history);
-      const Pack length = load(length_.data() + first + slot);
-      const Vector3<Pack> force = truss_force(axis[slot / pack_size], pulled.stress, Pack(area_ / length));
-      scatter_subtract(Vector3<Pack>() - force, scatter_.data() + 2 * (first + slot), 2, cycle.forces.force);
-      scatter_subtract(force, scatter_.data() + 2 * (first + slot) + 1, 2, cycle.forces.force);
-      if (any_of(pulled.increment < Pack(stable.increment)))
-        for (int lane = 0; lane < pack_size; ++lane)
-          if (pulled.increment[lane] < stable.increment) stable = {pulled.increment[lane], first + slot + lane};
-    }
-  }
+  for (const auto& run : runs)
+    for (std::int32_t first = run.first; first < run.last; first += block_capacity)
+      add_block({first, std::min(first + block_capacity, run.last)}, cycle, history, stable);
   return stable;
+}
+
+void TrussGroup::add_block(const PackRun& block, const ExplicitCycle& cycle, std::span<double> history,
+                           StableIncrement& stable) const {
+  const std::int32_t first = block.first;
+  Batch batch;
+  batch.count = block.last - first;
+  Vector3<Pack> axis[block_capacity / pack_size];
+  for (int slot = 0; slot < batch.count; slot += pack_size) {
+    const std::int32_t* const node = connectivity_.data() + 2 * (first + slot);
+    const Pack length = load(length_.data() + first + slot);
+    axis[slot / pack_size] = gather(cycle.motion.position, node + 1, 2) - gather(cycle.motion.position, node, 2);
+    store(truss_strain(axis[slot / pack_size], Pack(1.0 / (length * length))), batch.strain[0] + slot);
+  }
+  batch.history = history.data() + first;
+  batch.history_stride = padded_size_;
+  batch.increment = cycle.increment;
+  law_->stress(batch);
+  for (int slot = 0; slot < batch.count; slot += pack_size) {
+    const Pulled pulled = pull(batch, first, slot, cycle, history);
+    const Pack length = load(length_.data() + first + slot);
+    const Vector3<Pack> force = truss_force(axis[slot / pack_size], pulled.stress, Pack(area_ / length));
+    scatter_subtract(Vector3<Pack>() - force, scatter_.data() + 2 * (first + slot), 2, cycle.forces.force);
+    scatter_subtract(force, scatter_.data() + 2 * (first + slot) + 1, 2, cycle.forces.force);
+    merge(pulled.increment, first + slot, stable);
+  }
 }
 
 std::size_t TrussGroup::bytes_per_element() const { return sizeof(double) + 4 * sizeof(std::int32_t); }

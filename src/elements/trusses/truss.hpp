@@ -19,7 +19,8 @@ class TrussGroup final : public ElementGroup {
   int history_size() const override;
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
-  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                             std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;
@@ -40,6 +41,7 @@ class TrussGroup final : public ElementGroup {
   double reference_length(std::int32_t element) const { return length_[element]; }
   double strain_at(std::int32_t element, const double* position) const;
   void set_undeformed_moduli();
+  void add_block(const PackRun& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
   Pulled pull(const Batch& batch, std::int32_t first, int slot, const ExplicitCycle& cycle, std::span<double> history) const;
 
   std::unique_ptr<Law<PointKind::line>> law_;

@@ -22,7 +22,7 @@ class Group : public ElementGroup {
   int history_size() const override { return history_size_; }
   void initialize_history(std::span<double> history) const override { std::fill(history.begin(), history.end(), 0.0); }
   void lumped_mass(std::int32_t, std::span<double> mass) const override { std::fill(mass.begin(), mass.end(), 1.0); }
-  StableIncrement add_forces(Portion, const ExplicitCycle&, std::span<double>) const override { return {}; }
+  StableIncrement add_forces(std::span<const PackRun>, const ExplicitCycle&, std::span<double>) const override { return {}; }
   bool linearize(std::int32_t, const NodalMotion&, std::span<const double>, std::span<double>, std::span<double>,
                  std::span<double>) const override {
     return true;
