@@ -393,6 +393,16 @@ void Writer::initial_velocities() {
   }
 }
 
+void Writer::initial_fields() {
+  for (std::size_t k = 0; k < model_.initial_fields.size(); ++k) {
+    const auto& [field, elements, values, location] = model_.initial_fields[k];
+    std::string numbers;
+    for (const double value : values) numbers += fmt::format(", {}", value);
+    line("*INITIAL CONDITIONS, TYPE={}\n{}{}", field == "S0" ? "STRESS" : "HARDENING",
+         quoted(element_set_of(elements, fmt::format("_INITIAL-{}", k + 1))), numbers);
+  }
+}
+
 std::string Writer::write() {
   // What refers to sets comes first, because it may make some.
   definitions();
@@ -402,6 +412,7 @@ std::string Writer::write() {
   rigid_bodies();
   contact();
   initial_velocities();
+  initial_fields();
   for (std::size_t row = 0; row < model_.steps.size(); ++row) step(row);
   const std::string rest = std::move(text_);
   text_.clear();

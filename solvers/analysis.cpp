@@ -81,7 +81,10 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
   for (std::size_t i = 0; i < turning; i += 4) current.orientation[i] = 1.0;
   current.nodal_work.resize(domain.size());
   work_ahead.resize(domain.size());
-  for (const auto& group : element_groups) current.element_history.push_back(group->initial_history());
+  for (const auto& group : element_groups) {
+    current.element_history.push_back(group->initial_history());
+    group->set_initial_fields(model, current.element_history.back());
+  }
   for (const auto& pair : contacts) current.contact.emplace_back(pair.size());
   current.rigid_bodies = initial_rigid_bodies(model);
   undeformed_increment = balocco::undeformed_increment(model, communicator, domain, element_groups);
@@ -243,6 +246,11 @@ void Analysis::start_step(const Step& step) {
   }
 }
 
+bool Analysis::takes_part(const ElementGroup& group, std::int32_t element) const {
+  if (current.step >= static_cast<std::int32_t>(model.steps.size())) return true;
+  return !std::ranges::binary_search(model.steps[current.step].removed_elements, ElementRef{group.table(), group.row(element)});
+}
+
 void Analysis::apply_attachments(const Step& step) {
   const auto position_of = [&](std::int32_t row) -> Point {
     // A node is on at least one rank; all ranks need its position because bodies are replicated.
@@ -282,7 +290,7 @@ void Analysis::index_rigid_nodes() {
 }
 
 /// An element all whose nodes move, and turn if they do, with one rigid body cannot strain: it rests. One that holds a single node
-/// strains against the ground.
+/// strains against the ground. What is out of the model rests too.
 void Analysis::find_acting_elements() {
   for (const auto& group : element_groups) {
     const bool turns = group->freedoms_per_node() > 3;
@@ -291,11 +299,12 @@ void Analysis::find_acting_elements() {
       return carrier_[node] >= 0 ? carrier_[node] : reference_of_[node];
     };
     std::vector<bool> acting(static_cast<std::size_t>(group->size()), true);
-    for (std::int32_t element = 0; element < group->size() && group->nodes_per_element() > 1; ++element) {
+    for (std::int32_t element = 0; element < group->size(); ++element) {
       const auto nodes = group->nodes(element);
       const auto body = body_of(nodes[0]);
-      acting[element] =
-          body < 0 || !std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return body_of(node) == body; });
+      const bool strains = body < 0 || nodes.size() == 1 ||
+                           !std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return body_of(node) == body; });
+      acting[element] = strains && takes_part(*group, element);
     }
     group->set_acting(std::move(acting));
   }

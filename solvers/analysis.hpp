@@ -51,6 +51,8 @@ class Analysis : public ResultSource {
   /// What happens once when a step starts afresh: attaches and releases what it says, from where the nodes stand; contact
   /// pairs that rest in it forget what they knew. Collective.
   void start_step(const Step& step);
+  /// False for an element that *MODEL CHANGE has taken out of the model in the current step: it has no force and no energy, only mass.
+  bool takes_part(const ElementGroup& group, std::int32_t element) const;
   /// Body that carries a local node, or -1. Reference nodes are not carried.
   std::int32_t carrier(std::int32_t local_node) const { return carrier_[local_node]; }
   /// Body that turns a local node: it is tied, or the reference node; or -1.

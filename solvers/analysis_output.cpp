@@ -250,6 +250,7 @@ EnergyBalance Analysis::sum_energies() const {
     const auto& group = *element_groups[index];
     std::vector<double> history(group.history_size());
     for (std::int32_t e = 0; e < group.size(); ++e) {
+      if (!takes_part(group, e)) continue;
       group.gather_history(e, current.element_history[index], history);
       const auto energy = current.linear ? small_strain().energies(group, e, current, history)
                                          : group.energies(e, current.motion(), history);

@@ -156,18 +156,27 @@ Matrix6 RigidDynamics::mass_matrix(const Body& body, const Matrix3<double>& rota
 }
 
 double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, std::int32_t node) const {
-  const Body& body = bodies_[index];
-  const auto& state = analysis.current.rigid_bodies[index];
   const double* x = &analysis.current.position[4 * node];
-  const auto r = body.axes * (vector({x[0], x[1], x[2]}) - vector(state.position));
-  const auto mass = mass_matrix(body, rotation_matrix(state));
+  const auto r = bodies_[index].axes * (vector({x[0], x[1], x[2]}) - vector(analysis.current.rigid_bodies[index].position));
+  Eigen::Matrix<double, 3, 6> arm;  // velocity of the node: that of the reference node + spin x r
+  arm << 1, 0, 0, 0, r[2], -r[1], 0, 1, 0, -r[2], 0, r[0], 0, 0, 1, r[1], -r[0], 0;
+  return mobility(analysis, index, arm);
+}
+
+double RigidDynamics::rotary_mobility(const Analysis& analysis, std::size_t index) const {
+  Eigen::Matrix<double, 3, 6> spin = Eigen::Matrix<double, 3, 6>::Zero();
+  spin.rightCols<3>().setIdentity();
+  return mobility(analysis, index, spin);
+}
+
+/// Largest eigenvalue of arm M^-1 arm^T over the free degrees of freedom.
+double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, const Eigen::Matrix<double, 3, 6>& arm) const {
+  const Body& body = bodies_[index];
+  const auto mass = mass_matrix(body, rotation_matrix(analysis.current.rigid_bodies[index]));
   std::vector<int> free;
   for (int dof = 0; dof < 6; ++dof)
     if (body.condition[dof] == nullptr) free.push_back(dof);
   if (free.empty()) return 0.0;
-  // Velocity of the node: that of the reference node + spin x r.
-  Eigen::Matrix<double, 3, 6> arm;
-  arm << 1, 0, 0, 0, r[2], -r[1], 0, 1, 0, -r[2], 0, r[0], 0, 0, 1, r[1], -r[0], 0;
   const Eigen::MatrixXd free_arm = arm(Eigen::all, free), free_mass = mass(free, free);
   const Eigen::Matrix3d mobility = free_arm * free_mass.ldlt().solve(free_arm.transpose());
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mobility, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();

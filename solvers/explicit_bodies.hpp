@@ -56,6 +56,8 @@ class RigidDynamics {
 
   /// Greatest acceleration per force at a local node that a body carries, in any direction, with its free degrees of freedom.
   double mobility(const Analysis& analysis, std::size_t body, std::int32_t node) const;
+  /// Greatest angular acceleration per moment, likewise.
+  double rotary_mobility(const Analysis& analysis, std::size_t body) const;
 
   /// Squares of the unbalanced forces on free degrees of freedom and of the reactions; moments count with 1 / reach of
   /// the body.
@@ -90,6 +92,7 @@ class RigidDynamics {
   void sum_inertia(const Analysis& analysis);
   void add_rotary_inertia(const Analysis& analysis);
   void refuse_massless(const Analysis& analysis) const;
+  double mobility(const Analysis& analysis, std::size_t index, const Eigen::Matrix<double, 3, 6>& arm) const;
   Matrix6 mass_matrix(const Body& body, const Matrix3<double>& rotation) const;
   Vector6 inertia_forces(const Body& body, const Matrix3<double>& rotation, const Vector3<double>& spin) const;
   Motion motion(const Analysis& analysis, const Body& body, std::size_t index) const;

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Dense>
+
 #include <algorithm>
 
 #include "elements/element_type.hpp"
@@ -21,12 +23,46 @@ void for_each_restraint(const Analysis& analysis, Visit visit) {
   }
 }
 
-/// Sums of the restraints on all nodes of each rigid body.
-std::vector<Restraint> body_restraints(const Analysis& analysis, const std::vector<Restraint>& restraints) {
+bool turns(const ElementGroup& group) { return group.freedoms_per_node() == 6; }
+
+/// Sums over all elements that act on displacements, or on rotations, for the first `count` local nodes.
+std::vector<Restraint> summed(const Analysis& analysis, std::int32_t count, bool rotations) {
+  const auto for_each_of_kind = [&](auto visit) {
+    for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
+      if (turns(group) == rotations) visit(group.restraint(element), group.nodes(element));
+    });
+  };
+  double largest = 0.0;
+  for_each_of_kind([&](const Restraint& of, std::span<const std::int32_t>) {
+    largest = std::max({largest, of.stiffness, of.viscosity, of.force});
+  });
+  largest = analysis.communicator.maximum(largest);
+  std::vector<Restraint> result(static_cast<std::size_t>(count));
+  if (largest == 0.0) return result;
+  // As nodal masses are summed: at most 64 of the largest in one node.
+  const double constant = rounding_constant(64.0 * largest);
+  std::vector<double> sums(4 * (static_cast<std::size_t>(analysis.domain.size()) + 1), 0.0);
+  for_each_of_kind([&](const Restraint& of, std::span<const std::int32_t> nodes) {
+    for (const auto node : nodes) {
+      sums[4 * node] += rounded(of.stiffness, constant);
+      sums[4 * node + 1] += rounded(of.viscosity, constant);
+      sums[4 * node + 2] += rounded(of.force, constant);
+    }
+  });
+  analysis.domain.halo->begin_sum(sums.data());
+  analysis.domain.halo->finish_sum(sums.data());
+  for (std::size_t node = 0; node < result.size(); ++node)
+    result[node] = {sums[4 * node], sums[4 * node + 1], sums[4 * node + 2]};
+  return result;
+}
+
+/// Sums of the restraints on all nodes of each rigid body; `body_of` says which one moves (turns) a node.
+template <class BodyOf>
+std::vector<Restraint> body_restraints(const Analysis& analysis, const std::vector<Restraint>& restraints, BodyOf body_of) {
   const std::size_t bodies = analysis.model.rigid_bodies.size();
   std::vector<ExactSum> sums(2 * bodies);
-  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
-    const auto body = std::max(analysis.carrier(node), analysis.reference_of(node));
+  for (std::size_t node = 0; node < restraints.size(); ++node) {
+    const auto body = body_of(static_cast<std::int32_t>(node));
     if (body < 0 || !analysis.domain.owned[node]) continue;
     sums[2 * body].add(restraints[node].stiffness);
     sums[2 * body + 1].add(restraints[node].viscosity);
@@ -38,46 +74,46 @@ std::vector<Restraint> body_restraints(const Analysis& analysis, const std::vect
   return result;
 }
 
-}  // namespace
-
-std::vector<Restraint> nodal_restraints(const Analysis& analysis) {
-  double largest = 0.0;
-  for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
-    const auto [stiffness, viscosity, force] = group.restraint(element);
-    largest = std::max({largest, stiffness, viscosity, force});
-  });
-  std::vector<Restraint> result(static_cast<std::size_t>(analysis.domain.size()));
-  largest = analysis.communicator.maximum(largest);
-  if (largest == 0.0) return result;
-  // As nodal masses are summed: at most 64 of the largest in one node.
-  const double constant = rounding_constant(64.0 * largest);
-  std::vector<double> sums(4 * (result.size() + 1), 0.0);
-  for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
-    const auto [stiffness, viscosity, force] = group.restraint(element);
-    for (const auto node : group.nodes(element)) {
-      sums[4 * node] += rounded(stiffness, constant);
-      sums[4 * node + 1] += rounded(viscosity, constant);
-      sums[4 * node + 2] += rounded(force, constant);
-    }
-  });
-  analysis.domain.halo->begin_sum(sums.data());
-  analysis.domain.halo->finish_sum(sums.data());
-  for (std::size_t node = 0; node < result.size(); ++node)
-    result[node] = {sums[4 * node], sums[4 * node + 1], sums[4 * node + 2]};
-  return result;
+std::int32_t moving_body(const Analysis& analysis, std::int32_t node) {
+  return std::max(analysis.carrier(node), analysis.reference_of(node));
 }
 
-RestraintBound restraint_bound(const Analysis& analysis, const std::vector<Restraint>& restraints,
-                               const RigidDynamics& bodies) {
-  const auto of_bodies = body_restraints(analysis, restraints);
+/// Inverse of the smallest rotary inertia of a node that turns freely; 0 if it has none.
+std::vector<double> rotary_mobilities(const Analysis& analysis) {
+  std::vector<double> inertia(analysis.rotary_inertia);
+  for (const auto& [node, section, tensor] : analysis.rotary_tensors) {
+    const Eigen::Map<const Eigen::Matrix3d> matrix(tensor.component.data());
+    inertia[node] += Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
+  }
+  for (double& value : inertia) value = value > 0.0 ? 1.0 / value : 0.0;
+  return inertia;
+}
+
+}  // namespace
+
+NodalRestraints nodal_restraints(const Analysis& analysis) {
+  return {summed(analysis, analysis.domain.size(), false), summed(analysis, analysis.domain.turning, true)};
+}
+
+RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies) {
+  const auto mover = [&](std::int32_t node) { return moving_body(analysis, node); };
+  const auto turner = [&](std::int32_t node) { return analysis.turning_body(node); };
+  const auto pulled = body_restraints(analysis, restraints.translation, mover);
+  const auto twisted = body_restraints(analysis, restraints.rotation, turner);
+  const auto rotary = rotary_mobilities(analysis);
   RestraintBound largest;
   for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
     RestraintBound bound;
     for (const auto node : group.nodes(element)) {
-      const auto body = std::max(analysis.carrier(node), analysis.reference_of(node));
-      const Restraint& total = body >= 0 ? of_bodies[body] : restraints[node];
+      const bool rotates = turns(group);
+      const auto body = rotates ? turner(node) : mover(node);
+      const Restraint& total = rotates ? (body >= 0 ? twisted[body] : restraints.rotation[node])
+                                       : (body >= 0 ? pulled[body] : restraints.translation[node]);
       const double mass = analysis.nodal_mass[node];
-      const double mobility = body >= 0 ? bodies.mobility(analysis, body, node) : mass > 0.0 ? 1.0 / mass : 0.0;
+      const double mobility = body >= 0 ? (rotates ? bodies.rotary_mobility(analysis, body) : bodies.mobility(analysis, body, node))
+                              : rotates ? rotary[node]
+                              : mass > 0.0 ? 1.0 / mass
+                                           : 0.0;
       bound.omega_square += total.stiffness * mobility;
       bound.rate += total.viscosity * mobility;
     }
@@ -88,19 +124,25 @@ RestraintBound restraint_bound(const Analysis& analysis, const std::vector<Restr
 }
 
 void refuse_massless_restraints(const Analysis& analysis, const Step& step) {
-  std::vector<bool> held(static_cast<std::size_t>(analysis.domain.size()));
+  const auto size = static_cast<std::size_t>(analysis.domain.size());
+  std::vector<bool> held(size), held_rotation(size);
   for (const auto& condition : step.boundary)
-    if (const auto node = analysis.domain.local_node[condition.node]; node >= 0 && condition.dof < 3) held[node] = true;
+    if (const auto node = analysis.domain.local_node[condition.node]; node >= 0)
+      (condition.dof < 3 ? held : held_rotation)[node] = true;
+  const auto rotary = rotary_mobilities(analysis);
   for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
     for (const auto node : group.nodes(element)) {
-      const bool moved_by_body = analysis.carrier(node) >= 0 || analysis.reference_of(node) >= 0;
-      if (moved_by_body || held[node] || analysis.nodal_mass[node] > 0.0) continue;
+      const bool rotates = turns(group);
+      if (rotates ? analysis.turning_body(node) >= 0 || held_rotation[node] || rotary[node] > 0.0
+                  : moving_body(analysis, node) >= 0 || held[node] || analysis.nodal_mass[node] > 0.0)
+        continue;
       const auto& table = analysis.model.elements[group.table()];
       throw InputError(fmt::format(
-          "{}: error: *ELEMENT: {} {} pulls at node {}, which has no mass and is not held, so that an explicit step cannot "
-          "move it; give it a MASS element or constrain it",
+          "{}: error: *ELEMENT: {} {} {} node {}, which has no {} and is not held, so that an explicit step cannot {} it; give it a "
+          "{} element or constrain it",
           analysis.model.where(table.location[group.row(element)]), table.type->name, table.id[group.row(element)],
-          analysis.model.nodes.id[analysis.domain.node_row[node]]));
+          rotates ? "twists" : "pulls at", analysis.model.nodes.id[analysis.domain.node_row[node]],
+          rotates ? "rotary inertia" : "mass", rotates ? "turn" : "move", rotates ? "ROTARYI" : "MASS"));
     }
   });
 }

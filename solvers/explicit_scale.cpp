@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
@@ -83,27 +84,34 @@ void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& 
       largest[node] += greatest(load) * analysis.nodal_mass[node];
 }
 
-/// Springs may stretch by the size of the model, by what is prescribed, and by what moving nodes pass in an increment: the last two
-/// count where all nodes lie in one place.
-void add_restraints(const Analysis& analysis, const Step& step, const std::vector<Restraint>& restraints, double increment,
-                    std::vector<double>& largest) {
-  const double size = model_size(analysis.model);
-  double displacement = size, speed = 0.0;
-  for (const auto& condition : step.boundary) {
-    const double magnitude = std::abs(condition.magnitude) * greatest_factor(analysis.model, condition.amplitude);
-    if (condition.kind == BoundaryCondition::Kind::displacement && condition.dof < 3)
-      displacement = std::max(displacement, magnitude);
-    if (condition.kind == BoundaryCondition::Kind::velocity) speed = std::max(speed, magnitude * (condition.dof < 3 ? 1.0 : size));
-  }
-  for (const auto& initial : analysis.model.initial_velocities) {
-    const auto& v = initial.velocity;
-    speed = std::max(speed, std::hypot(v[0], v[1], v[2]) + std::abs(initial.angular_speed) * size);
-  }
-  const double reach = displacement + speed * increment;
-  for (std::size_t node = 0; node < largest.size(); ++node) {
+void add_restraints(const NodalRestraints& restraints, double reach, double increment, std::vector<double>& largest) {
+  for (std::size_t node = 0; node < restraints.size(); ++node) {
     const auto& [stiffness, viscosity, force] = restraints[node];
     largest[node] += stiffness * reach + viscosity * (reach / increment) + force;
   }
+}
+
+/// Springs may stretch by the size of the model or turn around, by what is prescribed, and by what moving nodes pass in an increment:
+/// the last two count where all nodes lie in one place.
+void add_restraints(const Analysis& analysis, const Step& step, const NodalRestraints& restraints, double increment,
+                    std::vector<double>& largest, std::vector<double>& moment) {
+  const double size = model_size(analysis.model);
+  double displacement = size, rotation = 2.0 * std::numbers::pi, speed = 0.0, spin = 0.0;
+  for (const auto& condition : step.boundary) {
+    const double magnitude = std::abs(condition.magnitude) * greatest_factor(analysis.model, condition.amplitude);
+    const bool turns = condition.dof >= 3;
+    auto& way = turns ? rotation : displacement;
+    auto& rate = turns ? spin : speed;
+    if (condition.kind == BoundaryCondition::Kind::displacement) way = std::max(way, magnitude);
+    if (condition.kind == BoundaryCondition::Kind::velocity) rate = std::max(rate, magnitude);
+  }
+  for (const auto& initial : analysis.model.initial_velocities) {
+    const auto& v = initial.velocity;
+    speed = std::max(speed, std::hypot(v[0], v[1], v[2]));
+    spin = std::max(spin, std::abs(initial.angular_speed));
+  }
+  add_restraints(restraints.translation, displacement + (speed + spin * size) * increment, increment, largest);
+  add_restraints(restraints.rotation, rotation + spin * increment, increment, moment);
 }
 
 }  // namespace
@@ -119,7 +127,8 @@ double undeformed_increment(const Model& model, const Communicator& communicator
   const ExplicitCycle cycle{.motion = {.position = position.data(),
                                        .velocity = velocity.data(),
                                        .orientation = orientation.data(),
-                                       .angular_velocity = spin.data()},
+                                       .angular_velocity = spin.data(),
+                                       .rotation = spin.data()},
                             .forces = {.force = force.data(), .moment = moment.data()}};
   StableIncrement smallest;
   for (const auto& group : groups) {
@@ -130,7 +139,7 @@ double undeformed_increment(const Model& model, const Communicator& communicator
   return communicator.minimum(smallest.increment);
 }
 
-ForceScale force_scale(const Analysis& analysis, const Step& step, const std::vector<Restraint>& restraints,
+ForceScale force_scale(const Analysis& analysis, const Step& step, const NodalRestraints& restraints,
                        const RestraintBound& bound) {
   const double increment = analysis.undeformed_increment;
   ForceScale scale;
@@ -146,7 +155,7 @@ ForceScale force_scale(const Analysis& analysis, const Step& step, const std::ve
   add_loads(analysis, step, largest, moment);
   if (bound.omega_square > 0.0 || bound.rate > 0.0)
     add_restraints(analysis, step, restraints,
-                   std::min(increment, neutral_increment(bound.omega_square, bound.rate)), largest);
+                   std::min(increment, neutral_increment(bound.omega_square, bound.rate)), largest, moment);
   for (const auto pair : step.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
     for (std::int32_t point = 0; point < contact.size(); ++point)

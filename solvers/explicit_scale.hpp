@@ -21,7 +21,7 @@ struct ForceScale {
 
 /// Fixed for a step by the undeformed model and the step's loads, so that a restart on any number of ranks finds the
 /// same. Collective.
-ForceScale force_scale(const Analysis& analysis, const Step& step, const std::vector<Restraint>& restraints,
+ForceScale force_scale(const Analysis& analysis, const Step& step, const NodalRestraints& restraints,
                        const RestraintBound& bound);
 
 /// Force beyond which a sum rounded with `constant` is no longer sure to be exact: 2 x the largest sum it was made for.

@@ -83,7 +83,7 @@ class ExplicitStep {
   Observer& observer_;
   double total_time_at_start_ = 0.0;  // of the step
   RigidDynamics bodies_;
-  std::vector<Restraint> restraints_;
+  NodalRestraints restraints_;
   RestraintBound restraint_bound_;
   ForceScale scale_;
   TimeControl control_;

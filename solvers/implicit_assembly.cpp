@@ -75,7 +75,7 @@ void ImplicitSystem::add_elements(double increment, bool& sound) {
   motion.increment = increment;
   for (std::size_t group = 0; group < analysis_.element_groups.size(); ++group)
     for (std::int32_t element = 0; element < analysis_.element_groups[group]->size() && sound; ++element)
-      add_element(group, element, motion, sound);
+      if (analysis_.takes_part(*analysis_.element_groups[group], element)) add_element(group, element, motion, sound);
 }
 
 void ImplicitSystem::add_element(std::size_t index, std::int32_t element, const NodalMotion& motion, bool& sound) {

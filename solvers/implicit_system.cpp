@@ -103,7 +103,7 @@ bool ImplicitSystem::moves_as_one(const ElementGroup& group, std::int32_t elemen
 void ImplicitSystem::record_pattern() {
   for (const auto& group : analysis_.element_groups)
     for (std::int32_t element = 0; element < group->size(); ++element)
-      if (!moves_as_one(*group, element)) stiffness_.add(motions_of(*group, element), {});
+      if (analysis_.takes_part(*group, element) && !moves_as_one(*group, element)) stiffness_.add(motions_of(*group, element), {});
   for (const auto& load : step_.pressures)
     for (std::int32_t face = 0; face < analysis_.pressure_faces[load.surface]->size(); ++face)
       stiffness_.add(motions_of(analysis_.pressure_faces[load.surface]->nodes(face)), {});

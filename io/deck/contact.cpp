@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
 
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
@@ -189,8 +190,38 @@ void read_pair(Builder& builder, const Block& block) {
   builder.in_step ? read_contact_pair(builder, block) : read_contact_pair_in_model(builder, block);
 }
 
+/// Elements taken out of the model, or taken up again with the strains that they then have: those of the total motion.
+void change_elements(Builder& builder, const Block& block) {
+  if (block.has("ADD") && block.value("ADD") != "WITH STRAIN")
+    return builder.error(block, block.location,
+                         "elements that come back free of strain are not supported; write ADD=WITH STRAIN, which counts their strains "
+                         "from the undeformed model");
+  auto& removed = builder.model.steps.back().removed_elements;
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    for (int field = 0; field < row.size(); ++field) {
+      std::vector<ElementRef> elements;
+      if (!row.has(field) || !builder.elements_of(row.text(field), block, line.location, elements)) continue;
+      for (const auto element : elements) {
+        const auto& table = builder.model.elements[element.table];
+        if (table.type->make_group == nullptr)
+          return row.error(fmt::format("element {} of type {} has no forces to be taken out; name elements that have a stiffness",
+                                       table.id[element.row], table.type->name));
+      }
+      std::ranges::sort(elements);
+      std::vector<ElementRef> result;
+      if (block.has("ADD"))
+        std::ranges::set_difference(removed, elements, std::back_inserter(result));
+      else
+        std::ranges::set_union(removed, elements, std::back_inserter(result));
+      removed = std::move(result);
+    }
+  }
+}
+
 void read_model_change(Builder& builder, const Block& block) {
   if (block.has("ADD") == block.has("REMOVE")) return builder.error(block, block.location, "give either ADD or REMOVE");
+  if (block.value("TYPE") == "ELEMENT") return change_elements(builder, block);
   auto& active = builder.model.steps.back().active_contact_pairs;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
@@ -232,7 +263,8 @@ const RegisterKeyword pair{
 const RegisterKeyword change{{"MODEL CHANGE",
                               Phase::history,
                               Place::step,
-                              {required(choice("TYPE", {"CONTACT PAIR"})), flag("ADD"), flag("REMOVE")},
+                              {required(choice("TYPE", {"CONTACT PAIR", "ELEMENT"})),
+                               optional_choice("ADD", {"STRAIN FREE", "WITH STRAIN"}), flag("REMOVE")},
                               read_model_change}};
 
 }  // namespace

@@ -1,9 +1,13 @@
 // *INITIAL CONDITIONS.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
 #include "deck/register.hpp"
+#include "elements/element_type.hpp"
+#include "materials/initial_stress.hpp"
 
 namespace balocco::deck {
 
@@ -56,14 +60,79 @@ void read_rotating_velocities(Builder& builder, const Block& block) {
   }
 }
 
+/// Components of an initial stress that elements with such a section have; 0 where they cannot have one.
+int stress_components(Section::Kind kind) {
+  switch (kind) {
+    case Section::Kind::solid:
+      return initial_stress_size(PointKind::solid);
+    case Section::Kind::membrane:
+      return initial_stress_size(PointKind::plane);
+    case Section::Kind::truss:
+      return initial_stress_size(PointKind::line);
+    default:
+      return 0;
+  }
+}
+
+/// The elements of a line, none if it is wrong (told). All of them must be of one kind of section.
+std::vector<ElementRef> elements_of_line(Builder& builder, const Block& block, Row& row, const char* what) {
+  std::vector<ElementRef> elements;
+  if (!builder.elements_of(row.text(0), block, row.location(), elements)) return {};
+  const auto kind = builder.model.elements[elements[0].table].type->section;
+  for (const auto element : elements) {
+    const auto& table = builder.model.elements[element.table];
+    if (stress_components(table.type->section) > 0 && table.type->section == kind) continue;
+    row.error(fmt::format("element {} of type {} cannot have an initial {} on this line; name solids, membranes or trusses, one "
+                          "kind on a line",
+                          table.id[element.row], table.type->name, what));
+    return {};
+  }
+  std::ranges::sort(elements);
+  return elements;
+}
+
+void read_stresses(Builder& builder, const Block& block) {
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    InitialField stress{.field = "S0", .elements = elements_of_line(builder, block, row, "stress")};
+    if (stress.elements.empty()) continue;
+    const int count = stress_components(builder.model.elements[stress.elements[0].table].type->section);
+    for (int k = 0; k < count; ++k) stress.values.push_back(row.real_or(1 + k, 0.0, "component of the stress"));
+    row.at_most(1 + count);
+    if (!row.ok()) continue;
+    stress.location = line.location;
+    for (const auto element : stress.elements)
+      if (const auto section = builder.model.elements[element.table].section[element.row]; section >= 0)
+        builder.model.sections[section].initially_stressed = true;
+    builder.model.initial_fields.push_back(std::move(stress));
+  }
+}
+
+void read_hardening(Builder& builder, const Block& block) {
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    InitialField hardening{.field = "PEEQ", .elements = elements_of_line(builder, block, row, "hardening")};
+    if (hardening.elements.empty()) continue;
+    hardening.values = {row.real(1, "equivalent plastic strain")};
+    row.at_most(2);
+    if (row.ok() && hardening.values[0] < 0.0)
+      row.error(fmt::format("equivalent plastic strain {} is negative; correct it", hardening.values[0]));
+    hardening.location = line.location;
+    if (row.ok()) builder.model.initial_fields.push_back(std::move(hardening));
+  }
+}
+
 void read_initial_conditions(Builder& builder, const Block& block) {
-  block.value("TYPE") == "VELOCITY" ? read_velocities(builder, block) : read_rotating_velocities(builder, block);
+  const std::string type = block.value("TYPE");
+  if (type == "VELOCITY") return read_velocities(builder, block);
+  if (type == "ROTATING VELOCITY") return read_rotating_velocities(builder, block);
+  type == "STRESS" ? read_stresses(builder, block) : read_hardening(builder, block);
 }
 
 const RegisterKeyword initial{{"INITIAL CONDITIONS",
                                Phase::constraints,
                                Place::model,
-                               {required(choice("TYPE", {"VELOCITY", "ROTATING VELOCITY"}))},
+                               {required(choice("TYPE", {"VELOCITY", "ROTATING VELOCITY", "STRESS", "HARDENING"}))},
                                read_initial_conditions}};
 
 }  // namespace

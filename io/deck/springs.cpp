@@ -17,12 +17,13 @@ bool read_freedoms(Builder& builder, const Block& block, const DataLine& line, c
   Row row(builder, block, line);
   for (int end = 0; end < type.nodes; ++end) {
     const std::int64_t freedom = row.integer(end, "degree of freedom of a node");
-    if (row.ok() && (freedom < 1 || freedom > 3))
-      row.error(fmt::format("degree of freedom {} of node {} of {} is out of range; springs and dashpots act on the "
-                            "displacements 1 to 3",
+    if (row.ok() && (freedom < 1 || freedom > 6))
+      row.error(fmt::format("degree of freedom {} of node {} of {} is out of range; displacements are 1 to 3, rotations 4 to 6",
                             freedom, end + 1, type.name));
     spring.freedom[end] = static_cast<std::int32_t>(freedom) - 1;
   }
+  if (row.ok() && type.nodes == 2 && spring.freedom[0] / 3 != spring.freedom[1] / 3)
+    row.error("one degree of freedom is a displacement and the other a rotation; give two of one kind");
   // Preprocessors write both for elements with one node, or a 0 for what is not there.
   if (type.nodes == 1 && row.has(1)) row.integer(1, "degree of freedom of a node");
   row.at_most(2);

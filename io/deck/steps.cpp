@@ -45,6 +45,7 @@ void inherit(Builder& builder, Step& step) {
   step.pressures = before.pressures;
   step.gravity = before.gravity;
   step.active_contact_pairs = before.active_contact_pairs;
+  step.removed_elements = before.removed_elements;
   step.field_outputs = before.field_outputs;
   step.history_outputs = before.history_outputs;
   step.checkpoint_frequency = before.checkpoint_frequency;

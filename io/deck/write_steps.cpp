@@ -1,5 +1,6 @@
 // The steps of a deck being written.
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "deck/writer.hpp"
@@ -78,6 +79,19 @@ void Writer::contact_changes(std::size_t row) {
     if (starts) line("*CONTACT PAIR, INTERACTION={}\n{}", quoted(model_.interactions[interaction].name), names);
     if (now != (was || starts)) line("*MODEL CHANGE, TYPE=CONTACT PAIR, {}\n{}", now ? "ADD" : "REMOVE", names);
   }
+}
+
+void Writer::element_changes(std::size_t row) {
+  const Step* const last = before(model_, row);
+  const auto& now = model_.steps[row].removed_elements;
+  const auto was = last == nullptr ? std::vector<ElementRef>{} : last->removed_elements;
+  std::vector<ElementRef> removed, added;
+  std::ranges::set_difference(now, was, std::back_inserter(removed));
+  std::ranges::set_difference(was, now, std::back_inserter(added));
+  if (!removed.empty())
+    line("*MODEL CHANGE, TYPE=ELEMENT, REMOVE\n{}", quoted(element_set_of(removed, fmt::format("_REMOVED-{}", row + 1))));
+  if (!added.empty())
+    line("*MODEL CHANGE, TYPE=ELEMENT, ADD=WITH STRAIN\n{}", quoted(element_set_of(added, fmt::format("_ADDED-{}", row + 1))));
 }
 
 /// Behind the last of the conditions that differ from the first in nothing but the node.
@@ -243,6 +257,7 @@ void Writer::step(std::size_t row) {
     return line("*END STEP");
   }
   contact_changes(row);
+  element_changes(row);
   attachments(now);
   boundary(row);
   loads(now);

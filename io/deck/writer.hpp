@@ -51,6 +51,7 @@ class Writer {
   void rigid_bodies();
   void contact();
   void initial_velocities();
+  void initial_fields();
 
   void step(std::size_t row);
   void procedure(const StaticProcedure& p);
@@ -58,6 +59,7 @@ class Writer {
   void procedure(const FrequencyProcedure& p);
   void controls(const ImplicitControls& now);
   void contact_changes(std::size_t row);
+  void element_changes(std::size_t row);
   void boundary(std::size_t row);
   const NodeSet* set_of(Conditions first, Conditions end) const;
   void loads(const Step& step);

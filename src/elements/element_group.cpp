@@ -95,6 +95,20 @@ std::vector<double> ElementGroup::initial_history() const {
   return history;
 }
 
+int ElementGroup::law_field_row(std::string_view, int) const { return -1; }
+
+void ElementGroup::set_initial_fields(const Model& model, std::span<double> history) const {
+  for (const auto& [field, elements, values, location] : model.initial_fields) {
+    if (law_field_row(field, 0) < 0) continue;
+    for (std::int32_t lane = 0; lane < padded_size_; ++lane) {
+      if (!std::ranges::binary_search(elements, ElementRef{table_, rows_[lane]})) continue;
+      for (int point = 0; point < integration_points(); ++point)
+        for (std::size_t k = 0; k < values.size(); ++k)
+          history[(law_field_row(field, point) + k) * padded_size_ + lane] = values[k];
+    }
+  }
+}
+
 void ElementGroup::gather_history(std::int32_t element, std::span<const double> group_history, std::span<double> own) const {
   for (std::size_t component = 0; component < own.size(); ++component)
     own[component] = group_history[component * padded_size_ + element];

@@ -59,9 +59,9 @@ struct ElementEnergies {
 
 /// Bounds, over a step, of what an element without mass of its own (a spring, a dashpot) does to each node that it holds.
 struct Restraint {
-  double stiffness = 0.0;  // force per displacement
-  double viscosity = 0.0;  // force per velocity
-  double force = 0.0;      // of a table
+  double stiffness = 0.0;  // force per displacement, or moment per rotation
+  double viscosity = 0.0;  // force per velocity, or moment per angular velocity
+  double force = 0.0;      // or moment, of a table
 };
 
 /// Elements that touch nodes shared with other ranks, and the others.
@@ -96,6 +96,10 @@ class ElementGroup {
 
   /// History of the whole group in the undeformed state.
   std::vector<double> initial_history() const;
+  /// Component of an element's history at which a field of its law's history (HistoryField) begins at a point; -1: it has none.
+  virtual int law_field_row(std::string_view field, int point) const;
+  /// Writes what Model::initial_fields say of these elements into the history of the group.
+  void set_initial_fields(const Model& model, std::span<double> history) const;
   /// Copies the history of one element out of, or into, that of the group.
   void gather_history(std::int32_t element, std::span<const double> group_history, std::span<double> own) const;
   void scatter_history(std::int32_t element, std::span<const double> own, std::span<double> group_history) const;

@@ -3,12 +3,13 @@
 
 namespace balocco {
 
-/// Nodal arrays of a rank, 4 doubles a node. The last two exist only for nodes that turn, which are numbered first on each rank.
+/// Nodal arrays of a rank, 4 doubles a node. All but the first two exist only for nodes that turn, which are numbered first on each rank.
 struct NodalMotion {
   const double* position = nullptr;          // x y z 0
   const double* velocity = nullptr;          // explicit: over the increment (half step); statics: null
   const double* orientation = nullptr;       // unit quaternion w x y z of the rotation from the reference configuration
   const double* angular_velocity = nullptr;  // global axes, half step, 0 in the fourth; statics: null
+  const double* rotation = nullptr;          // accumulated rotation vector UR (may exceed a turn)
   double increment = 0.0;                    // statics: time that the increment takes, for forces that depend on rates; 0: none
 };
 

@@ -13,6 +13,12 @@ std::vector<bool> turning_nodes(const Model& model) {
     for (const auto node : table.connectivity)
       if (!rotary || !reference[node]) turns[node] = true;
   }
+  for (const auto& table : model.elements)
+    for (std::size_t i = 0; i < table.connectivity.size(); ++i) {
+      const auto section = table.section[i / static_cast<std::size_t>(table.type->nodes)];
+      // Springs and dashpots of degrees of freedom 4 to 6; also on reference nodes, which turn with their bodies.
+      if (section >= 0 && model.sections[section].spring.freedom[0] >= 3) turns[table.connectivity[i]] = true;
+    }
   return turns;
 }
 

@@ -31,6 +31,7 @@ class Checker {
     check_laws_of_sections();
     check_rigid_bodies();
     check_contact();
+    check_initial_fields();
     find_idle_nodes();
     for (const auto& step : model_.steps) check_step(step);
     return std::move(found_);
@@ -55,6 +56,7 @@ class Checker {
   void check_law(const Section& section, std::int32_t material);
   void check_rigid_bodies();
   void check_contact();
+  void check_initial_fields();
   void find_idle_nodes();
   void check_loads(const Step& step);
   /// Springs and dashpots between degrees of freedom may join nodes that lie in one place.
@@ -204,6 +206,29 @@ void Checker::check_options(const Material& material, const MaterialLaw& law) {
       error(material.location,
             fmt::format("*{}: material {} has no *PLASTIC, to which it belongs; add that", keyword, material.name));
   }
+}
+
+/// Yielding looks at elastic strains, of which an initial stress has none; hardening means nothing to a law that does not yield.
+void Checker::check_initial_fields() {
+  const auto yields = [&](const Section& section) {
+    return section.material >= 0 && std::ranges::any_of(model_.materials[section.material].options,
+                                                        [](const auto& option) { return option.name.starts_with("plastic"); });
+  };
+  for (const auto& field : model_.initial_fields)
+    for (const auto element : field.elements) {
+      const ElementTable& table = model_.elements[element.table];
+      if (table.section[element.row] < 0) continue;  // told
+      const bool stress = field.field == "S0";
+      if (yields(model_.sections[table.section[element.row]]) != stress) continue;
+      error(field.location,
+            stress ? fmt::format("*INITIAL CONDITIONS: element {} yields (*PLASTIC), which an initial stress would not count for; "
+                                 "take it out of the set",
+                                 table.id[element.row])
+                   : fmt::format("*INITIAL CONDITIONS: element {} does not yield, so that it has no hardening; give its material "
+                                 "*PLASTIC or take it out of the set",
+                                 table.id[element.row]));
+      break;
+    }
 }
 
 void Checker::check_law(const Section& section, std::int32_t material) {

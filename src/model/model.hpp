@@ -10,6 +10,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "model/element_ref.hpp"
 #include "model/step.hpp"
 
 namespace balocco {
@@ -52,13 +53,6 @@ struct ElementTable {
   std::vector<Point> corner_normal;  // shells: unit normals of the smooth surface, as connectivity; empty: those of the elements
 
   std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }
-};
-
-/// An element of the model: the table of its type and its row there.
-struct ElementRef {
-  std::int32_t table = -1;
-  std::int32_t row = -1;
-  friend auto operator<=>(const ElementRef&, const ElementRef&) = default;
 };
 
 struct NodeSet {
@@ -194,6 +188,7 @@ struct Section {
   double mass = 0.0;                    // MASS elements
   std::array<double, 6> inertia{};      // ROTARYI: I11 I22 I33 I12 I13 I23 about the node
   SpringProperty spring;                // springs and dashpots
+  bool initially_stressed = false;      // an InitialField gives some of its elements a stress
   Location location;
 };
 
@@ -249,6 +244,14 @@ struct InitialVelocity {
   Location location;
 };
 
+/// *INITIAL CONDITIONS of elements: what a field of their law's history holds at all their points when the analysis begins.
+struct InitialField {
+  std::string field;  // "S0": stress in the element's local directions (materials/initial_stress.hpp); "PEEQ": hardening
+  std::vector<ElementRef> elements;  // sorted
+  std::vector<double> values;
+  Location location;
+};
+
 struct Units {
   std::string length, mass, time;  // empty: not declared
 };
@@ -275,6 +278,7 @@ struct Model {
   std::vector<Interaction> interactions;
   std::vector<ContactPair> contact_pairs;
   std::vector<InitialVelocity> initial_velocities;
+  std::vector<InitialField> initial_fields;
   std::vector<Step> steps;
 
   /// The last step before `step` that changed the state: what is not said anew goes on from it. -1: none.

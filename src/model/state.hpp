@@ -71,7 +71,8 @@ struct State {
     return {.position = position.data(),
             .velocity = velocity.data(),
             .orientation = orientation.data(),
-            .angular_velocity = angular_velocity.data()};
+            .angular_velocity = angular_velocity.data(),
+            .rotation = rotation.data()};
   }
 };
 

@@ -10,6 +10,8 @@
 #include <variant>
 #include <vector>
 
+#include "model/element_ref.hpp"
+
 namespace balocco {
 
 /// Degrees of freedom count from 0: 0-2 translations, 3-5 rotations, in the node's *TRANSFORM directions where it has any.
@@ -163,6 +165,7 @@ struct Step {
   std::vector<PressureLoad> pressures;
   std::vector<GravityLoad> gravity;
   std::vector<std::int32_t> active_contact_pairs;  // rows of Model::contact_pairs, after *MODEL CHANGE
+  std::vector<ElementRef> removed_elements;        // sorted: out of the model in this step, after *MODEL CHANGE
   std::vector<RigidAttachment> attachments;
   std::vector<FieldOutput> field_outputs;
   std::vector<HistoryOutput> history_outputs;

@@ -41,6 +41,7 @@ MembraneSection membrane_section(const Model& model, const Section& section) {
   if (!section.plies.empty()) {
     const Laminate stack = laminate(model, section);
     result.law = linear_plane_law(stack.stiffness);
+    if (section.initially_stressed) result.law = initially_stressed(std::move(result.law));
     result.thickness = stack.thickness;
     result.density = stack.density;
     result.damping_stiffness = stack.damping_stiffness;
@@ -51,7 +52,7 @@ MembraneSection membrane_section(const Model& model, const Section& section) {
   } else {
     if (section.material < 0) fail("it names no material; add MATERIAL=NAME");
     const Material& material = model.materials[section.material];
-    result.law = make_law<PointKind::plane>(material);
+    result.law = law_of_section<PointKind::plane>(material, section);
     if (result.law == nullptr)
       fail(fmt::format("material {} has no plane-stress law; give it *ELASTIC or *HYPERELASTIC", material.name));
     result.thickness = section.thickness;

@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "materials/initial_stress.hpp"
 #include "sections/lamination.hpp"
 
 namespace balocco {

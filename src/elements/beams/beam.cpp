@@ -155,16 +155,14 @@ void BeamGroup::add_pack(std::int32_t first, const ExplicitCycle& cycle, std::sp
   const Pack omega = square_root(load(data + frequency * pack_size) + turning);
   const Pack ratio = 0.5 * damping / omega;
   const Pack increment = 2.0 * (square_root(1.0 + ratio * ratio) - ratio) / omega;
-  if (any_of(increment < Pack(stable.increment)))
-    for (int lane = 0; lane < pack_size; ++lane)
-      if (increment[lane] < stable.increment) stable = {increment[lane], first + lane};
+  merge(increment, first, stable);
 }
 
-StableIncrement BeamGroup::add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const {
-  const std::int32_t begin = portion == Portion::interface ? 0 : interface_padded_;
-  const std::int32_t end = portion == Portion::interface ? interface_padded_ : padded_size_;
+StableIncrement BeamGroup::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                                      std::span<double> history) const {
   StableIncrement stable;
-  for (std::int32_t first = begin; first < end; first += pack_size) add_pack(first, cycle, history, stable);
+  for (const auto& run : runs)
+    for (std::int32_t first = run.first; first < run.last; first += pack_size) add_pack(first, cycle, history, stable);
   return stable;
 }
 

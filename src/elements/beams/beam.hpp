@@ -26,7 +26,8 @@ class BeamGroup final : public ElementGroup {
   /// At least the physical inertia, and so much that shear and bending never oscillate faster than waves along the axis:
   /// the stable increment of any beam is L / sqrt(E / rho).
   void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const override;
-  StableIncrement add_forces(Portion portion, const ExplicitCycle& cycle, std::span<double> history) const override;
+  StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
+                             std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;

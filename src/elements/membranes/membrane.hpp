@@ -18,6 +18,10 @@ class MembraneGroup final : public ElementGroup {
   explicit MembraneGroup(const GroupInput& input);
 
   int history_size() const override;
+  int law_field_row(std::string_view field, int point) const override {
+    const int row = field_row(*section_data_.law, field);
+    return row < 0 ? row : point * section_data_.law->history_size() + row;
+  }
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,

@@ -20,6 +20,10 @@ class FullSolid final : public ElementGroup {
   explicit FullSolid(const GroupInput& input);
 
   int history_size() const override { return law_row(Shape::points); }
+  int law_field_row(std::string_view field, int point) const override {
+    const int row = field_row(*material_.law, field);
+    return row < 0 ? row : law_row(point) + row;
+  }
   void initialize_history(std::span<double> history) const override {
     std::fill(history.begin(), history.end(), 0.0);
     history[0] = 1.0;

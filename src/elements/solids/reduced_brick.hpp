@@ -18,6 +18,10 @@ class ReducedBrick final : public ElementGroup {
 
   int history_size() const override { return own_history + material_.law->history_size(); }
   void initialize_history(std::span<double> history) const override;
+  int law_field_row(std::string_view field, int) const override {
+    const int row = field_row(*material_.law, field);
+    return row < 0 ? row : own_history + row;
+  }
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;

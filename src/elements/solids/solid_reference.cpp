@@ -52,7 +52,7 @@ std::array<double, 36> initial_stiffness(const Law<PointKind::solid>& law) {
 SolidMaterial SolidMaterial::of_section(const Model& model, const Section& section) {
   const Material& material = model.materials.at(section.material);
   SolidMaterial result;
-  result.law = make_law<PointKind::solid>(material);
+  result.law = law_of_section<PointKind::solid>(material, section);
   if (result.law == nullptr)
     throw InputError(fmt::format(
         "{}: error: *SOLID SECTION: material {} has no three-dimensional law{}; give *ELASTIC or *HYPERELASTIC "

@@ -7,7 +7,7 @@
 #include <span>
 
 #include "elements/element_group.hpp"
-#include "materials/material_law.hpp"
+#include "materials/initial_stress.hpp"
 #include "math/tensor.hpp"
 
 namespace balocco {

@@ -18,8 +18,8 @@ enum HistoryRow { elongation_row, force_row, dissipation_row };
 
 Vector3<double> vector(const Point& point) { return {point}; }
 
-Vector3<double> place(const NodalMotion& motion, std::int32_t node) {
-  const double* x = motion.position + 4 * std::ptrdiff_t{node};
+Vector3<double> entry(const double* nodal, std::int32_t node) {
+  const double* x = nodal + 4 * std::ptrdiff_t{node};
   return {{x[0], x[1], x[2]}};
 }
 
@@ -35,6 +35,7 @@ SpringGroup::SpringGroup(const GroupInput& input)
       curve_(input.model.sections[section_].spring.slope, input.model.sections[section_].spring.table),
       viscous_(input.model.sections[section_].kind == Section::Kind::dashpot),
       axial_(input.model.sections[section_].spring.freedom[0] < 0) {
+  if (input.model.sections[section_].spring.freedom[0] >= 3) freedoms_per_node_ = 6;
   axial_ ? find_axial_lengths(input) : find_directions(input);
 }
 
@@ -61,14 +62,14 @@ void SpringGroup::find_directions(const GroupInput& input) {
     for (int end = 0; end < nodes_per_element_; ++end) {
       const auto node = table.connectivity[static_cast<std::size_t>(rows_[element]) * nodes_per_element_ + end];
       const Point& at = model.nodes.coordinates[node];
-      const int axis = section.spring.freedom[end];
+      const int axis = section.spring.freedom[end] % 3;
       auto unit = vector(nodal.direction(node, axis));
       if (section.orientation >= 0) {
         const auto axes = local_axes(model.orientations[section.orientation], at);
         unit = {{axes(axis, 0), axes(axis, 1), axes(axis, 2)}};
       }
       direction[end] = (end == 0 ? 1.0 : -1.0) * unit;
-      origin += dot(direction[end], vector(at));
+      if (!turns()) origin += dot(direction[end], vector(at));
     }
     direction_.push_back(direction);
     origin_.push_back(origin);
@@ -82,13 +83,13 @@ void SpringGroup::lumped_mass(std::int32_t, std::span<double> mass) const { std:
 SpringGroup::Elongation SpringGroup::elongation(std::int32_t element, const NodalMotion& motion) const {
   const auto node = nodes(element);
   if (axial_) {
-    const auto axis = place(motion, node[1]) - place(motion, node[0]);
+    const auto axis = entry(motion.position, node[1]) - entry(motion.position, node[0]);
     const double length = std::sqrt(dot(axis, axis));
     const auto unit = (1.0 / length) * axis;
     return {length - origin_[element], {-1.0 * unit, unit}, 1.0 / length};
   }
   Elongation result{-origin_[element], direction_[element], 0.0};
-  for (int end = 0; end < nodes_per_element_; ++end) result.value += dot(result.gradient[end], place(motion, node[end]));
+  for (int end = 0; end < nodes_per_element_; ++end) result.value += dot(result.gradient[end], entry(turns() ? motion.rotation : motion.position, node[end]));
   return result;
 }
 
@@ -117,7 +118,8 @@ void SpringGroup::add_force(std::int32_t element, const ExplicitCycle& cycle, st
   if (viscous_) row(dissipation_row) += 0.5 * (row(force_row) + force) * (now.value - row(elongation_row));
   row(elongation_row) = now.value;
   row(force_row) = force;
-  for (int n = 0; n < nodes_per_element_; ++n) subtract(force * now.gradient[n], nodes(element)[n], cycle.forces.force);
+  double* const sums = turns() ? cycle.forces.moment : cycle.forces.force;
+  for (int n = 0; n < nodes_per_element_; ++n) subtract(force * now.gradient[n], nodes(element)[n], sums);
 }
 
 bool SpringGroup::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
@@ -131,16 +133,20 @@ bool SpringGroup::linearize(std::int32_t element, const NodalMotion& motion, std
   if (viscous_)
     new_history[dissipation_row] +=
         0.5 * (old_history[force_row] + pulled.force) * (now.value - old_history[elongation_row]);
-  const int size = 3 * nodes_per_element_;
-  for (int i = 0; i < size; ++i) force[i] = pulled.force * now.gradient[i / 3][i % 3];
-  if (stiffness.empty()) return true;
-  for (int i = 0; i < size; ++i)
-    for (int j = 0; j < size; ++j) {
+  std::ranges::fill(force, 0.0);
+  std::ranges::fill(stiffness, 0.0);
+  const int size = freedoms_per_node_ * nodes_per_element_;
+  const auto place = [&](int i) { return freedoms_per_node_ * (i / 3) + first_freedom() + i % 3; };
+  for (int i = 0; i < 3 * nodes_per_element_; ++i) {
+    force[place(i)] = pulled.force * now.gradient[i / 3][i % 3];
+    if (stiffness.empty()) continue;
+    for (int j = 0; j < 3 * nodes_per_element_; ++j) {
       const double product = now.gradient[i / 3][i % 3] * now.gradient[j / 3][j % 3];
       const double sign = i / 3 == j / 3 ? 1.0 : -1.0;
       const double turning = now.curvature * ((i % 3 == j % 3 ? sign : 0.0) - product);
-      stiffness[size * i + j] = pulled.slope * product + pulled.force * turning;
+      stiffness[size * place(i) + place(j)] = pulled.slope * product + pulled.force * turning;
     }
+  }
   return true;
 }
 

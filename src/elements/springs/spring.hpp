@@ -3,7 +3,8 @@
 //   SPRINGA, DASHPOTA   along the line between two nodes, wherever it turns: u = l - L, tension positive
 //   SPRING1, DASHPOT1   a degree of freedom of one node against the ground:  u = a1 . u1
 //   SPRING2, DASHPOT2   degrees of freedom of two nodes:                     u = a1 . u1 - a2 . u2
-// with unit vectors a along *ORIENTATION, or else the node's *TRANSFORM directions. Springs exert f(u), dashpots f(du/dt), where the
+// with unit vectors a along *ORIENTATION, or else the node's *TRANSFORM directions. Degrees of freedom 4 to 6 are components of the
+// accumulated rotation vector UR, and f is a moment. Springs exert f(u), dashpots f(du/dt), where the
 // rate is the mean over the increment in both procedures (Abaqus Analysis User's Guide, "Springs" and "Dashpots").
 #pragma once
 
@@ -35,7 +36,7 @@ class SpringGroup final : public ElementGroup {
   std::size_t bytes_per_element() const override;
 
  private:
-  /// The relative displacement, and its first and second derivative with respect to the places of the nodes.
+  /// The relative displacement, and its first and second derivative with respect to the places (rotations) of the nodes.
   struct Elongation {
     double value = 0.0;
     std::array<Vector3<double>, 2> gradient{};
@@ -45,6 +46,8 @@ class SpringGroup final : public ElementGroup {
     double force = 0.0, slope = 0.0;  // slope with respect to the relative displacement at the end of the increment
   };
 
+  bool turns() const { return freedoms_per_node_ == 6; }
+  int first_freedom() const { return turns() ? 3 : 0; }
   void find_axial_lengths(const GroupInput& input);
   void find_directions(const GroupInput& input);
   Elongation elongation(std::int32_t element, const NodalMotion& motion) const;
@@ -56,7 +59,7 @@ class SpringGroup final : public ElementGroup {
 
   ForceCurve curve_;
   bool viscous_, axial_;
-  std::vector<double> origin_;  // axial: reference length; else a1 . X1 - a2 . X2
+  std::vector<double> origin_;  // axial: reference length; translations: a1 . X1 - a2 . X2; rotations: 0
   std::vector<std::array<Vector3<double>, 2>> direction_;  // a1 and -a2; empty for axial elements
 };
 

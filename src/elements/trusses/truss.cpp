@@ -24,7 +24,7 @@ std::unique_ptr<Law<PointKind::line>> line_law(const Model& model, const Section
   if (section.material < 0) fail("it names no material; add MATERIAL=NAME");
   if (!(section.area > 0.0)) fail(fmt::format("the area of a truss is {}; it must be positive", section.area));
   const Material& material = model.materials[section.material];
-  auto law = make_law<PointKind::line>(material);
+  auto law = law_of_section<PointKind::line>(material, section);
   if (law == nullptr)
     fail(fmt::format("material {} has no uniaxial law for trusses; give it *ELASTIC or *HYPERELASTIC", material.name));
   return law;

@@ -5,7 +5,7 @@
 
 #include "elements/aligned_vector.hpp"
 #include "elements/element_group.hpp"
-#include "materials/material_law.hpp"
+#include "materials/initial_stress.hpp"
 
 namespace balocco {
 
@@ -17,6 +17,7 @@ class TrussGroup final : public ElementGroup {
   explicit TrussGroup(const GroupInput& input);
 
   int history_size() const override;
+  int law_field_row(std::string_view field, int) const override { return field_row(*law_, field); }
   void initialize_history(std::span<double> history) const override;
   void lumped_mass(std::int32_t element, std::span<double> mass) const override;
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,

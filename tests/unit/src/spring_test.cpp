@@ -174,6 +174,20 @@ TEST(Dashpot, DissipatesForceTimesWay) {
   EXPECT_NEAR(values[0], speed * 2.5, 1e-12);
 }
 
+TEST(Spring, OfRotationsExertsMoments) {
+  Sheet sheet = connection("SPRING2", {.freedom = {4, 4}, .slope = 40.0});
+  ASSERT_EQ(sheet.group->freedoms_per_node(), 6);
+  const std::vector<double> rotation{9.0, 0.3, 9.0, 0.0, 9.0, -0.2, 9.0, 0.0};
+  const NodalMotion motion{.position = sheet.position.data(), .rotation = rotation.data()};
+  std::vector<double> history(3), force(12), stiffness(144);
+  ASSERT_TRUE(sheet.group->linearize(0, motion, std::vector<double>(3), history, force, stiffness));
+  for (int i = 0; i < 12; ++i) {
+    EXPECT_DOUBLE_EQ(force[i], i == 4 ? 20.0 : i == 10 ? -20.0 : 0.0);
+    for (int j = 0; j < 12; ++j)
+      EXPECT_DOUBLE_EQ(stiffness[12 * i + j], i % 6 == 4 && j % 6 == 4 ? (i == j ? 40.0 : -40.0) : 0.0);
+  }
+}
+
 TEST(Spring, WithoutLengthIsRefusedWhereItNeedsOne) {
   Sheet sheet("SPRINGA", {{1.0, 2.0, 3.0}, {1.0, 2.0, 3.0}}, {0, 1});
   EXPECT_THROW(sheet.build(), InputError);

@@ -1,0 +1,39 @@
+// Laws whose undeformed state is not free of stress (*INITIAL CONDITIONS, TYPE=STRESS).
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string_view>
+#include <utility>
+
+#include "materials/material_law.hpp"
+#include "model/model.hpp"
+
+namespace balocco {
+
+/// Components of an initial stress: solids 11 22 33 12 13 23, plane 11 22 12, line 11, fibre 11 12.
+constexpr int initial_stress_size(PointKind kind) { return kind == PointKind::solid ? 6 : strain_size(kind); }
+
+/// The law with a second Piola-Kirchhoff stress S0 that it has already in the undeformed state, where it is the Cauchy stress too:
+///   solids: P = P_law(F) + F S0; others: S = S_law(E) + S0; energy density + S0 : E.
+/// S0 belongs to the material directions, so that the stress turns with the body. It is the history field "S0", behind the law's own.
+/// @throws InputError for laws that yield: they would not count the initial stress
+template <PointKind kind>
+std::unique_ptr<Law<kind>> initially_stressed(std::unique_ptr<Law<kind>> law);
+
+/// The law of a material, with an initial stress where the section says so. Null as make_law.
+template <PointKind kind>
+std::unique_ptr<Law<kind>> law_of_section(const Material& material, const Section& section) {
+  auto law = make_law<kind>(material);
+  return law != nullptr && section.initially_stressed ? initially_stressed(std::move(law)) : std::move(law);
+}
+
+/// Row of a law's history at which a field begins; -1 if the law has no such field.
+template <PointKind kind>
+int field_row(const Law<kind>& law, std::string_view field) {
+  for (const auto& known : law.history_fields())
+    if (known.name == field) return known.first;
+  return -1;
+}
+
+}  // namespace balocco
