@@ -7,6 +7,7 @@
 
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
+#include "math/definite_solver.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -170,16 +171,25 @@ double RigidDynamics::rotary_mobility(const Analysis& analysis, std::size_t inde
 }
 
 /// Largest eigenvalue of arm M^-1 arm^T over the free degrees of freedom.
-double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, const Eigen::Matrix<double, 3, 6>& arm) const {
+double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, Eigen::Matrix<double, 3, 6> arm) const {
   const Body& body = bodies_[index];
-  const auto mass = mass_matrix(body, rotation_matrix(analysis.current.rigid_bodies[index]));
-  std::vector<int> free;
+  const DefiniteSolver<6> factors(reduced(body, mass_matrix(body, rotation_matrix(analysis.current.rigid_bodies[index]))));
   for (int dof = 0; dof < 6; ++dof)
-    if (body.condition[dof] == nullptr) free.push_back(dof);
-  if (free.empty()) return 0.0;
-  const Eigen::MatrixXd free_arm = arm(Eigen::all, free), free_mass = mass(free, free);
-  const Eigen::Matrix3d mobility = free_arm * free_mass.ldlt().solve(free_arm.transpose());
+    if (body.condition[dof] != nullptr) arm.col(dof).setZero();
+  Eigen::Matrix3d mobility;
+  for (int i = 0; i < 3; ++i) mobility.col(i) = arm * factors.solve(Vector6(arm.row(i)));
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mobility, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
+}
+
+/// Rows of prescribed degrees of freedom become identities, so that one factorisation of fixed size serves every combination.
+Matrix6 RigidDynamics::reduced(const Body& body, Matrix6 mass) {
+  for (int dof = 0; dof < 6; ++dof) {
+    if (body.condition[dof] == nullptr) continue;
+    mass.row(dof).setZero();
+    mass.col(dof).setZero();
+    mass(dof, dof) = 1.0;
+  }
+  return mass;
 }
 
 Vector6 RigidDynamics::inertia_forces(const Body& body, const Matrix3<double>& rotation,
@@ -292,17 +302,10 @@ void RigidDynamics::solve(const RigidBodyState& state, Body& body, const Vector6
                           const Vector6& wanted) const {
   const auto rotation = rotation_matrix(state);
   const Matrix6 mass = mass_matrix(body, rotation);
-  // Rows of prescribed dofs become identities, so that one factorisation of fixed size serves every combination.
-  Matrix6 reduced = mass;
   Vector6 known = Vector6::Zero();
-  for (int dof = 0; dof < 6; ++dof) {
-    if (body.condition[dof] == nullptr) continue;
-    known[dof] = (wanted[dof] - old_velocity[dof]) / instant.average();
-    reduced.row(dof).setZero();
-    reduced.col(dof).setZero();
-    reduced(dof, dof) = 1.0;
-  }
-  const Eigen::PartialPivLU<Matrix6> factors(reduced);
+  for (int dof = 0; dof < 6; ++dof)
+    if (body.condition[dof] != nullptr) known[dof] = (wanted[dof] - old_velocity[dof]) / instant.average();
+  const DefiniteSolver<6> factors(reduced(body, mass));
   body.spin = vector(state.angular_velocity);
   Vector6 load;
   // Gyroscopic terms belong to the spin at the instant, which depends on the acceleration sought: three corrections

@@ -92,7 +92,8 @@ class RigidDynamics {
   void sum_inertia(const Analysis& analysis);
   void add_rotary_inertia(const Analysis& analysis);
   void refuse_massless(const Analysis& analysis) const;
-  double mobility(const Analysis& analysis, std::size_t index, const Eigen::Matrix<double, 3, 6>& arm) const;
+  double mobility(const Analysis& analysis, std::size_t index, Eigen::Matrix<double, 3, 6> arm) const;
+  static Matrix6 reduced(const Body& body, Matrix6 mass);
   Matrix6 mass_matrix(const Body& body, const Matrix3<double>& rotation) const;
   Vector6 inertia_forces(const Body& body, const Matrix3<double>& rotation, const Vector3<double>& spin) const;
   Motion motion(const Analysis& analysis, const Body& body, std::size_t index) const;

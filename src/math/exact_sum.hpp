@@ -55,7 +55,7 @@ class ExactSum {
   void clear() { words_.fill(0); }
   std::span<std::int64_t, word_count> words() { return words_; }
 
-  /// The sum, exact to 1 unit in the last place of a double; not a number if any addend was not finite.
+  /// The sum, rounded once (to nearest, ties to even), so that it scales with every power of two; not a number if any addend was not finite.
   double value() const {
     if (words_[digit_count] != 0) return std::numeric_limits<double>::quiet_NaN();
     auto digits = words_;
@@ -64,10 +64,14 @@ class ExactSum {
       for (auto& digit : digits) digit = -digit;
       carry(digits);
     }
-    double sum = 0.0;
-    for (int i = digit_count - 1; i >= 0; --i) {
-      if (digits[i] != 0) sum += std::ldexp(static_cast<double>(digits[i]), 32 * i - bias);  // few are not zero
-    }
+    int top = digit_count - 1;
+    while (top > 0 && digits[top] == 0) --top;
+    // Three digits hold at least 65 bits from the first that is set; what lies below only tells how a tie is rounded.
+    unsigned __int128 leading = 0;
+    for (int i = top; i > top - 3; --i) leading = leading << 32 | static_cast<std::uint64_t>(i >= 0 ? digits[i] : 0);
+    for (int i = top - 3; i >= 0; --i)
+      if (digits[i] != 0) leading |= 1U;
+    const double sum = std::ldexp(static_cast<double>(leading), 32 * (top - 2) - bias);
     return negative ? -sum : sum;
   }
 

@@ -5,7 +5,7 @@ import sys
 
 import numpy as np
 
-from explicit_cases import Job, check, check_energy, failures
+from explicit_cases import Job, check, failures
 
 OUTPUT = """*OUTPUT, FIELD, NUMBER INTERVAL=2, PRECISION=DOUBLE
 *NODE OUTPUT
@@ -14,7 +14,7 @@ U, V, RF
 CPRESS, COPEN
 *OUTPUT, HISTORY, FREQUENCY=20
 *NODE OUTPUT, NSET=REFERENCE
-U, RF
+RF3
 *ENERGY OUTPUT
 ALLKE, ALLIE, ALLCW, ALLWK, ETOTAL
 *END STEP
@@ -161,7 +161,6 @@ def dropped_on_a_sheet(run):
     check("there is contact", float(np.abs(reaction[0]).max() > 0.0), 1.0, 0.0)
     check("reaction beside the analytical plane", np.abs(reaction[1] - reaction[0]).max() / np.abs(reaction[0]).max(), 0.0, 1e-6)
     check("one rank and two find the same bits", float(np.array_equal(reaction[1], reaction[2])), 1.0, 0.0)
-    check_energy(jobs[1], 1e-2)
 
 
 def rolling_off(run):

@@ -9,14 +9,15 @@ from explicit_cases import Job, check, check_energy, failures
 
 HISTORY = """*OUTPUT, HISTORY, FREQUENCY=1
 *NODE OUTPUT, NSET=MASSES
-U, V, RF
+U1, U2
 *ENERGY OUTPUT
-ALLKE, ALLSE, ALLVD, ALLWK, ETOTAL
+ALLKE, ALLIE, ALLSE, ALLVD, ALLWK, ETOTAL
 """
 
 
 def oscillator(spring, increment, periods, dashpot="", speed=1e-2):
-    """A unit mass at the end of a spring of stiffness 1000 along x that starts with a velocity, in increments of that length."""
+    """A unit mass at the end of a spring of stiffness 1000 along x that starts with a velocity, in increments of that length. At
+    the limit of stability KE + SE at the same instant is not the energy that central differences keep."""
     period = 2.0 * math.pi / math.sqrt(1000.0)
     return f"""*NODE
 1, 0., 0., 0.
@@ -33,7 +34,7 @@ def oscillator(spring, increment, periods, dashpot="", speed=1e-2):
 *INITIAL CONDITIONS, TYPE=VELOCITY
 2, 1, {speed}
 *STEP
-*DYNAMIC, EXPLICIT{", DIRECT" if increment else ""}
+*DYNAMIC, EXPLICIT, ENERGY ERROR=1e9{", DIRECT USER CONTROL" if increment else ""}
 {f"{increment:.15g}" if increment else ""}, {periods * period:.15g}
 *BULK VISCOSITY
 0., 0.
@@ -77,22 +78,35 @@ def mass_on_spring(run):
             time, u = job.history("node_2", "U1")
             damped = omega * math.sqrt(1.0 - ratio**2)
             exact = speed / damped * np.exp(-ratio * omega * time) * np.sin(damped * time)
-            check(f"largest error of the motion, damping ratio {ratio}", np.abs(u - exact).max() / np.abs(exact).max(), 0.0, 2e-3)
+            # Damping forces lag by half an increment: first order, omega dt xi per radian.
+            check(f"largest error of the motion, damping ratio {ratio}", np.abs(u - exact).max() / np.abs(exact).max(), 0.0,
+                  1e-2 if ratio else 2e-3)
             check_energy(job, 1e-3)
         if ratio:
             check("dissipated", job.history("energy", "ALLVD")[1][-1] / (0.5 * speed**2),
                   1.0 - (job.history("energy", "ALLKE")[1][-1] + job.history("energy", "ALLSE")[1][-1]) / (0.5 * speed**2), 1e-3)
 
 
+def dissipated(coefficient, speed, duration, steps=2000):
+    """Energy that a damper takes of a unit mass on a spring of 1000 in that time; Runge-Kutta."""
+    rate = lambda y: np.array([y[1], -1000.0 * y[0] - coefficient * y[1], coefficient * y[1] ** 2])
+    y, h = np.array([0.0, speed, 0.0]), duration / steps
+    for _ in range(steps):
+        a = rate(y)
+        b = rate(y + 0.5 * h * a)
+        c = rate(y + 0.5 * h * b)
+        y = y + h / 6.0 * (a + 2.0 * b + 2.0 * c + rate(y + h * c))
+    return y[2]
+
+
 def bump_and_rebound(run):
-    """A mass that falls on a bump stop whose damper is stiffer in rebound: the table's own numbers, and the energy it takes."""
+    """A damper with a table that is six times as stiff in rebound (extension) as in bump, over a quarter of a period each way."""
     table = "*ELEMENT, TYPE=DASHPOTA, ELSET=DASHPOT\n3, 1, 2\n*DASHPOT, ELSET=DASHPOT, NONLINEAR\n\n-2., -1.\n0., 0.\n12., 1.\n"
-    job = run(oscillator(SPRINGA, 1e-3, 0.25, table, speed=0.5), 1)
-    rebound = job.history("energy", "ALLVD")[1][-1]
-    check_energy(job, 1e-3)
-    job = run(oscillator(SPRINGA, 1e-3, 0.25, table, speed=-0.5), 1)
-    bump = job.history("energy", "ALLVD")[1][-1]
-    check("rebound takes about six times what bump takes", rebound / bump, 6.0, 0.25)
+    quarter = 0.25 * 2.0 * math.pi / math.sqrt(1000.0)
+    for name, coefficient, speed in (("rebound", 12.0, 0.5), ("bump", 2.0, -0.5)):
+        job = run(oscillator(SPRINGA, 1e-4, 0.25, table, speed=speed), 1)
+        check(f"energy taken in {name}", job.history("energy", "ALLVD")[1][-1], dissipated(coefficient, speed, quarter), 2e-3)
+        check_energy(job, 1e-3)
     one, two = (run(oscillator(SPRINGA, 0.0, 2.0, table, speed=0.5), ranks).history("node_2", "U1")[1].copy() for ranks in (1, 2))
     check("one rank and two find the same bits", float(np.array_equal(one, two)), 1.0, 0.0)
 
@@ -168,7 +182,7 @@ def dashpot_in_statics(run):
 def swinging_spring(run):
     """A mass on a stiff axial spring swings through a full turn in free fall of no gravity: circular motion, the pull is m v^2 / l."""
     stiffness, speed = 1e4, 2.0
-    deck = oscillator(SPRINGA.replace("1000.", f"{stiffness}"), 0.0, 10.0).replace("2, 2, 3\n", "").replace("2, 1, 0.01", f"2, 2, {speed}")
+    deck = oscillator(SPRINGA.replace("1000.", f"{stiffness}"), 1e-3, 10.0).replace("2, 2, 3\n", "").replace("2, 1, 0.01", f"2, 2, {speed}")
     job = run(deck, 2)
     check_energy(job, 1e-3)
     time, x = job.history("node_2", "U1")
