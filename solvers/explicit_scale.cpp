@@ -84,7 +84,7 @@ void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& 
       largest[node] += greatest(load) * analysis.nodal_mass[node];
 }
 
-void add_restraints(const NodalRestraints& restraints, double reach, double increment, std::vector<double>& largest) {
+void add_restraints(const std::vector<Restraint>& restraints, double reach, double increment, std::vector<double>& largest) {
   for (std::size_t node = 0; node < restraints.size(); ++node) {
     const auto& [stiffness, viscosity, force] = restraints[node];
     largest[node] += stiffness * reach + viscosity * (reach / increment) + force;

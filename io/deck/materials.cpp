@@ -10,6 +10,7 @@
 #include "deck/text.hpp"
 #include "materials/material_option.hpp"
 #include "materials/rubber_stability.hpp"
+#include "model/diagnostics.hpp"
 
 namespace balocco::deck {
 
