@@ -215,9 +215,16 @@ void write_header(const std::string& path, const Model& model, const State& stat
   file.close();
 }
 
+std::unique_ptr<Hdf5File> open_checkpoint(const std::string& path) {
+  auto file = open_existing(path);
+  const std::string format = file->has_attribute("/", "format") ? file->text_attribute("/", "format") : "";
+  if (format == "balocco checkpoint") return file;
+  throw InputError(fmt::format("{}: error: {}; restart from a whole JOB.ckpt.h5, or run without --restart", path,
+                               format == "balocco" ? "this is a results file, not a checkpoint"
+                                                   : "not a checkpoint of Balocco, or one that was not finished"));
+}
+
 void read_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
-  const bool ours = file.has_attribute("/", "format") && file.text_attribute("/", "format") == "balocco checkpoint";
-  if (!ours) throw InputError(fmt::format("{}: error: not a checkpoint of Balocco", path));
   if (file.integer_attribute("/", "format_version") != format_version) {
     throw InputError(fmt::format("{}: error: checkpoint of another version of Balocco; restart with that version", path));
   }
@@ -322,9 +329,9 @@ void read_checkpoint(const std::string& path, const Model& model, const Communic
     if (!std::filesystem::exists(path)) {
       throw InputError(fmt::format("{}: error: no checkpoint to restart from; run without --restart", path));
     }
-    const Hdf5File file(path, Hdf5File::Mode::read);
-    read_header(file, path, model, state);
-    read_bodies(file, state);
+    const auto file = open_checkpoint(path);
+    read_header(*file, path, model, state);
+    read_bodies(*file, state);
   });
   ParallelFile file(path, communicator, ParallelFile::Mode::read);
   read_tables(file, model, communicator, domain, groups, state);

@@ -133,7 +133,19 @@ void Hdf5File::close() {
 }
 
 void Hdf5File::fail(const std::string& action) const {
-  throw SystemError(fmt::format("{}: results file cannot {}", path_, action));
+  throw SystemError(fmt::format("{}: file cannot {}", path_, action));
+}
+
+std::unique_ptr<Hdf5File> open_existing(const std::string& path) {
+  silence_hdf5();
+  if (!std::filesystem::is_regular_file(path)) throw InputError(fmt::format("{}: error: no such file", path));
+  if (H5Fis_hdf5(path.c_str()) <= 0)
+    throw InputError(fmt::format("{}: error: no HDF5 file, or the beginning of one is missing", path));
+  try {
+    return std::make_unique<Hdf5File>(path, Hdf5File::Mode::read);
+  } catch (const SystemError&) {
+    throw InputError(fmt::format("{}: error: the file is not whole (cut off while it was copied or written?)", path));
+  }
 }
 
 bool Hdf5File::exists(const std::string& path) const {

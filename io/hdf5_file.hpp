@@ -5,6 +5,7 @@
 #include <hdf5.h>
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -88,6 +89,9 @@ class Hdf5File {
   std::string path_;
   Hdf5Id file_;
 };
+
+/// Opens a file of Balocco to be read. @throws InputError if there is none, or it is not one or not whole.
+std::unique_ptr<Hdf5File> open_existing(const std::string& path);
 
 /// Properties of objects that all files share.
 Hdf5Id group_properties();                                                  // no time stamps

@@ -53,6 +53,17 @@ Hdf5Id select_slab(hid_t stored, const RowExchange& exchange, const Extent& tota
   return memory;
 }
 
+/// Whole rows travel, so that what is counted (in int) are rows and not their values.
+void exchange_rows(const std::vector<double>& outgoing, const std::vector<int>& leaving, std::vector<double>& incoming,
+                   const std::vector<int>& arriving, int columns, const Communicator& communicator) {
+  MPI_Datatype row;
+  MPI_Type_contiguous(columns, MPI_DOUBLE, &row);
+  MPI_Type_commit(&row);
+  MPI_Alltoallv(outgoing.data(), leaving.data(), starts(leaving).data(), row, incoming.data(), arriving.data(),
+                starts(arriving).data(), row, communicator.handle());
+  MPI_Type_free(&row);
+}
+
 }  // namespace
 
 RowExchange::RowExchange(const Communicator& communicator, std::int64_t total, std::vector<std::int64_t> rows)
@@ -77,20 +88,12 @@ RowExchange::RowExchange(const Communicator& communicator, std::int64_t total, s
   for (auto& row : arriving_rows_) row -= slab_begin();
 }
 
-std::vector<int> RowExchange::times(const std::vector<int>& counts, int columns) const {
-  std::vector<int> values = counts;
-  for (int& count : values) count *= columns;
-  return values;
-}
-
 std::vector<double> RowExchange::to_slab(std::span<const double> values, int columns) const {
   std::vector<double> outgoing(order_.size() * columns), incoming(arriving_rows_.size() * columns);
   for (std::size_t i = 0; i < order_.size(); ++i) {
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(order_[i]) * columns, columns, outgoing.begin() + i * columns);
   }
-  const auto leaving = times(leaving_, columns), arriving = times(arriving_, columns);
-  MPI_Alltoallv(outgoing.data(), leaving.data(), starts(leaving).data(), MPI_DOUBLE, incoming.data(), arriving.data(),
-                starts(arriving).data(), MPI_DOUBLE, communicator_->handle());
+  exchange_rows(outgoing, leaving_, incoming, arriving_, columns, *communicator_);
   std::vector<double> slab(slab_size() * columns, 0.0);
   for (std::size_t i = 0; i < arriving_rows_.size(); ++i) {
     std::copy_n(incoming.begin() + i * columns, columns, slab.begin() + arriving_rows_[i] * columns);
@@ -103,9 +106,7 @@ std::vector<double> RowExchange::from_slab(std::span<const double> slab, int col
   for (std::size_t i = 0; i < arriving_rows_.size(); ++i) {
     std::copy_n(slab.begin() + arriving_rows_[i] * columns, columns, outgoing.begin() + i * columns);
   }
-  const auto leaving = times(arriving_, columns), arriving = times(leaving_, columns);
-  MPI_Alltoallv(outgoing.data(), leaving.data(), starts(leaving).data(), MPI_DOUBLE, incoming.data(), arriving.data(),
-                starts(arriving).data(), MPI_DOUBLE, communicator_->handle());
+  exchange_rows(outgoing, arriving_, incoming, leaving_, columns, *communicator_);
   std::vector<double> values(order_.size() * columns);
   for (std::size_t i = 0; i < order_.size(); ++i) {
     std::copy_n(incoming.begin() + i * columns, columns, values.begin() + static_cast<std::ptrdiff_t>(order_[i]) * columns);

@@ -29,7 +29,6 @@ class RowExchange {
   std::vector<double> from_slab(std::span<const double> slab, int columns) const;
 
  private:
-  std::vector<int> times(const std::vector<int>& counts, int columns) const;
 
   const Communicator* communicator_;
   std::int64_t total_;

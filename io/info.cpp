@@ -3,11 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <filesystem>
 #include <iterator>
 
 #include "hdf5_file.hpp"
-#include "model/diagnostics.hpp"
 #include "results_index.hpp"
 
 namespace balocco {
@@ -88,13 +86,8 @@ void describe_step(const Hdf5File& file, const ResultsIndex& index, const std::s
 }  // namespace
 
 std::string describe_results(const std::string& path) {
-  if (!std::filesystem::exists(path)) throw InputError(fmt::format("{}: error: no such file", path));
-  silence_hdf5();
-  if (H5Fis_hdf5(path.c_str()) <= 0) throw InputError(fmt::format("{}: error: not an HDF5 file", path));
-  const Hdf5File file(path, Hdf5File::Mode::read);
-  if (!file.has_attribute("/", "format") || file.text_attribute("/", "format") != "balocco") {
-    throw InputError(fmt::format("{}: error: not a results file of Balocco; info reads JOB.h5", path));
-  }
+  const auto opened = open_results(path);
+  const Hdf5File& file = *opened;
   const ResultsIndex index = index_results(file);
   Report report;
   const std::string heading = file.text_attribute("/", "heading");

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "model/diagnostics.hpp"
+
 namespace balocco {
 
 namespace {
@@ -58,6 +60,14 @@ std::int64_t number_in(const std::string& name, const std::string& prefix) {
   const bool fits = name.size() > prefix.size() && name.starts_with(prefix) &&
                     name.find_first_not_of("0123456789", prefix.size()) == std::string::npos;
   return fits ? std::stoll(name.substr(prefix.size())) : -1;
+}
+
+std::unique_ptr<Hdf5File> open_results(const std::string& path) {
+  auto file = open_existing(path);
+  const std::string format = file->has_attribute("/", "format") ? file->text_attribute("/", "format") : "";
+  if (format == "balocco") return file;
+  throw InputError(fmt::format("{}: error: {}; give the results file JOB.h5", path,
+                               format == "balocco checkpoint" ? "this is a checkpoint" : "not a results file of Balocco"));
 }
 
 ResultsIndex index_results(const Hdf5File& file) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,9 @@ struct ResultsIndex {
 
 /// Fields by name: one order, whether they were just written or read back.
 void sort_fields(FieldBlock& block);
+
+/// Opens a results file to be read. @throws InputError that says what the file is instead: absent, cut off, a checkpoint ...
+std::unique_ptr<Hdf5File> open_results(const std::string& path);
 
 /// Reads the index of a file. @throws SystemError.
 ResultsIndex index_results(const Hdf5File& file);

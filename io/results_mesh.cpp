@@ -38,11 +38,34 @@ std::vector<T> flat(const std::vector<std::array<T, N>>& rows) {
   return values;
 }
 
+/// What the deck calls the rows of a table: the instance of a part (index in /mesh/instance) and the id there.
+void write_origin(const Hdf5File& file, const Model& model, const std::string& group, const std::vector<std::int32_t>& instance,
+                  const std::vector<std::int64_t>& id, std::int64_t Instance::*offset) {
+  if (instance.empty()) return;
+  std::vector<std::int64_t> part_id;
+  for (std::size_t row = 0; row < id.size(); ++row)
+    part_id.push_back(id[row] - model.instances[instance[row]].*offset);
+  file.write(group + "/instance", {id.size()}, instance);
+  file.write(group + "/part_id", {id.size()}, part_id);
+}
+
+void write_instances(const Hdf5File& file, const Model& model) {
+  if (model.instances.empty()) return;
+  file.create_group("/mesh/instance");
+  for (std::size_t i = 0; i < model.instances.size(); ++i) {
+    const std::string group = fmt::format("/mesh/instance/{}", i);
+    file.create_group(group);
+    file.set_attribute(group, "name", model.instances[i].name);
+    file.set_attribute(group, "part", model.instances[i].part);
+  }
+}
+
 void write_tables(const Hdf5File& file, const Model& model) {
   const auto nodes = static_cast<hsize_t>(model.nodes.size());
   file.create_group("/mesh/node");
   file.write("/mesh/node/id", {nodes}, model.nodes.id);
   file.write("/mesh/node/coordinates", {nodes, 3}, flat(model.nodes.coordinates));
+  write_origin(file, model, "/mesh/node", model.nodes.instance, model.nodes.id, &Instance::node_offset);
   file.create_group("/mesh/element");
   for (const ElementTable& table : model.elements) {
     if (table.size() == 0) continue;
@@ -52,6 +75,7 @@ void write_tables(const Hdf5File& file, const Model& model) {
     file.write(group + "/id", {rows}, table.id);
     file.write(group + "/connectivity", {rows, static_cast<hsize_t>(table.type->nodes)}, table.connectivity);
     file.write(group + "/part", {rows}, table.section);
+    write_origin(file, model, group, table.instance, table.id, &Instance::element_offset);
   }
 }
 
@@ -140,6 +164,7 @@ void write_mesh(const Hdf5File& file, const Model& model) {
   const Units& units = model.units;
   file.set_attribute("/", "units", units.length.empty() ? "" : fmt::format("{} {} {}", units.length, units.mass, units.time));
   file.create_group("/mesh");
+  write_instances(file, model);
   write_tables(file, model);
   write_parts(file, model);
   write_sets(file, model);

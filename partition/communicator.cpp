@@ -1,5 +1,6 @@
 #include "communicator.hpp"
 
+#include <algorithm>
 #include <array>
 #include <exception>
 
@@ -34,7 +35,9 @@ void broadcast_from(int rank, std::string& text, MPI_Comm handle) {
   auto length = static_cast<std::int64_t>(text.size());
   MPI_Bcast(&length, 1, MPI_INT64_T, rank, handle);
   text.resize(static_cast<std::size_t>(length));
-  MPI_Bcast(text.data(), static_cast<int>(length), MPI_CHAR, rank, handle);
+  constexpr std::int64_t piece = 1 << 30;  // a message counts in int, and a deck may be longer
+  for (std::int64_t sent = 0; sent < length; sent += piece)
+    MPI_Bcast(text.data() + sent, static_cast<int>(std::min(piece, length - sent)), MPI_CHAR, rank, handle);
 }
 
 [[noreturn]] void raise(const Report& report) {

@@ -12,20 +12,23 @@
 #include "communicator.hpp"
 #include "deck_reader.hpp"
 #include "deck_writer.hpp"
+#include "door.hpp"
 #include "info.hpp"
 #include "job_observer.hpp"
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
 #include "procedures.hpp"
+#include "results_diff.hpp"
 #include "signals.hpp"
 
 namespace balocco {
 namespace {
 
-enum ExitStatus { completed = 0, bad_input = 2, analysis_failed = 3, stopped = 4, system_trouble = 5 };
+enum ExitStatus { completed = 0, different = 1, bad_input = 2, analysis_failed = 3, stopped = 4, system_trouble = 5 };
 
 struct Command {
-  std::string deck, output = ".", last_step, spec, model_file, picture, results;
+  std::string deck, output = ".", last_step, spec, model_file, picture, results, other_results;
+  double relative = 0.0;
   std::vector<std::string> ignored_keywords;
   bool restart = false;
   int ranks = 1;
@@ -81,15 +84,20 @@ ExitStatus run(const Command& command, const Communicator& communicator) {
   }
 }
 
-/// Runs a job on all ranks and reports once. Errors that every rank shares leave by the same door; any other trouble on a
-/// single rank takes the whole job down, so that no rank is left behind.
+/// Runs a job on all ranks and reports once. Errors that every rank shares leave by the same door; trouble on a single rank takes
+/// the whole job down with the same exit status, so that no rank is left behind.
 int run_together(const Command& command) {
   const Communicator communicator;
-  const auto fail = [&](ExitStatus status, const std::string& reason) {
-    if (communicator.is_root()) {
+  Door door(communicator);
+  const auto fail = [&](ExitStatus status, const std::vector<std::string>& messages, const std::string& reason) {
+    constexpr double patience = 10.0;  // seconds; ranks that share an error come within one collective
+    const bool shared = door.everyone_comes(patience);
+    if (communicator.is_root() || !shared) {
       std::fflush(stdout);
-      fmt::print(stderr, "BALOCCO FAILED: {}\n", reason);
+      print_warnings(messages);
+      fmt::print(stderr, "BALOCCO FAILED: {}{}\n", shared ? "" : fmt::format("rank {}: ", communicator.rank()), reason);
     }
+    if (!shared) MPI_Abort(communicator.handle(), status);
     return status;
   };
   try {
@@ -98,10 +106,9 @@ int run_together(const Command& command) {
       fmt::print("{}\n", status == completed ? "BALOCCO COMPLETED" : "BALOCCO FAILED: stopped on request, checkpoint written");
     return status;
   } catch (const InputError& error) {
-    if (communicator.is_root()) print_warnings(error.messages());
-    return fail(bad_input, "bad input");
+    return fail(bad_input, error.messages(), "bad input");
   } catch (const AnalysisError& error) {
-    return fail(analysis_failed, error.what());
+    return fail(analysis_failed, {}, error.what());
   } catch (const std::exception& error) {
     fmt::print(stderr, "BALOCCO FAILED: rank {}: {}\n", communicator.rank(), error.what());
     std::fflush(stderr);
@@ -149,6 +156,12 @@ int show_info(const Command& command) {
   return completed;
 }
 
+int show_difference(const Command& command) {
+  const auto [same, text] = compare_results(command.results, command.other_results, command.relative);
+  fmt::print("{}", text);
+  return same ? completed : different;
+}
+
 /// Commands of one process: their errors are printed as they are.
 int alone(int (*work)(const Command&), const Command& command) {
   try {
@@ -189,6 +202,13 @@ int dispatch(int argc, char** argv) {
   auto* info_command = app.add_subcommand("info", "Show what a result file holds");
   info_command->add_option("results", command.results, "JOB.h5")->required();
 
+  auto* diff_command = app.add_subcommand("diff", "Say where two result files part first, and by how much");
+  diff_command->add_option("A", command.results, "JOB.h5")->required();
+  diff_command->add_option("B", command.other_results, "JOB.h5 of another run")->required();
+  diff_command
+      ->add_option("--relative", command.relative, "Differences up to this part of a variable's largest value are none (default: 0)")
+      ->check(CLI::NonNegativeNumber);
+
   // Everything behind "--" belongs to PETSc.
   const auto end = std::find(argv + 1, argv + argc, std::string_view("--"));
   std::vector<char*> petsc_arguments{argv[0]};
@@ -200,6 +220,7 @@ int dispatch(int argc, char** argv) {
   }
   if (*run_command) return run_with_petsc(command, petsc_arguments);
   if (*check_command) return alone(check, command);
+  if (*diff_command) return alone(show_difference, command);
   if (*tyre_command) return alone(build_tyre_deck, command);
   return alone(show_info, command);
 }

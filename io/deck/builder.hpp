@@ -74,6 +74,7 @@ class Builder {
   std::vector<std::pair<std::string, Location>> asked_element_variables;  // by name, to be checked against the elements
   std::unordered_map<std::int32_t, std::int32_t> body_of_reference;       // reference node -> Model::rigid_bodies
   std::vector<BoundaryCondition> initial_boundary;                        // *BOUNDARY before the first step
+  std::optional<std::int32_t> checkpoint_frequency, checkpoint_number_interval;  // *RESTART there
 
   std::deque<Scope> scopes{1};  // the first is the whole deck's
   Scope* scope = &scopes.front();

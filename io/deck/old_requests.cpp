@@ -1,4 +1,5 @@
-// Output requests for files that Balocco does not write: accepted with a warning, because they cannot change results.
+// What cannot change results, accepted with a warning: output requests for files that Balocco does not write, and thermal properties
+// where there are no temperatures.
 #include "deck/register.hpp"
 
 namespace balocco::deck {
@@ -21,6 +22,23 @@ const RegisterKeyword file_format{old_request("FILE FORMAT")}, node_print{old_re
     contact_file{old_request("CONTACT FILE")}, energy_print{old_request("ENERGY PRINT")},
     energy_file{old_request("ENERGY FILE")}, section_print{old_request("SECTION PRINT")},
     file_output{old_request("FILE OUTPUT")}, print{old_request("PRINT")}, diagnostics{old_request("DIAGNOSTICS")};
+
+/// Options of *MATERIAL that act where temperatures change, which they do nowhere here.
+KeywordRule thermal(const char* keyword) {
+  return {.keyword = keyword,
+          .place = Place::model,
+          .parent = "MATERIAL",
+          .warning = "there are no temperatures here: it has nothing to act on",
+          .any_parameter = true};
+}
+
+const RegisterKeyword expansion{thermal("EXPANSION")}, conductivity{thermal("CONDUCTIVITY")},
+    specific_heat{thermal("SPECIFIC HEAT")};
+const RegisterKeyword physical_constants{
+    {.keyword = "PHYSICAL CONSTANTS",
+     .place = Place::model,
+     .warning = "there are no temperatures, charges or radiation here: it has nothing to act on",
+     .any_parameter = true}};
 
 }  // namespace
 

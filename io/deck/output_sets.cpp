@@ -128,7 +128,7 @@ const RegisterKeyword element_output{
     {"ELEMENT OUTPUT",
      Phase::history,
      Place::step,
-     {name("ELSET"), variable, choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}), choice("DIRECTIONS", {"YES"})},
+     {name("ELSET"), variable, choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}), choice("DIRECTIONS", {"YES", "NO"})},
      read_element_output,
      "OUTPUT"}};
 

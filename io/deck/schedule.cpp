@@ -111,8 +111,13 @@ void Scheduler::begin_instance(const Block& block) {
   builder_.scopes.emplace_back();
   scope_ = &builder_.scopes.back();
   scope_->prefix = block.value("NAME") + ".";
-  scope_->instance = static_cast<std::int32_t>(builder_.model.instances.size());
-  builder_.model.instances.push_back({block.value("NAME"), block.value("PART")});
+  auto& instances = builder_.model.instances;
+  if (instances.empty()) {  // the assembly has nodes and elements of its own
+    instances.emplace_back();
+    builder_.scopes.front().instance = 0;
+  }
+  scope_->instance = static_cast<std::int32_t>(instances.size());
+  instances.push_back({block.value("NAME"), block.value("PART")});
   if (block.has("NSET")) scope_->node_set = builder_.node_set_row(block.value("NSET"));
   if (block.has("ELSET")) scope_->element_set = builder_.element_set_row(block.value("ELSET"));
   if (!block.lines.empty()) {

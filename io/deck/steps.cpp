@@ -31,6 +31,8 @@ void inherit(Builder& builder, Step& step) {
   const auto general = model.general_step_before(row);
   if (general < 0) {
     step.boundary = builder.initial_boundary;
+    step.checkpoint_frequency = builder.checkpoint_frequency;
+    step.checkpoint_number_interval = builder.checkpoint_number_interval;
     for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair) {
       step.active_contact_pairs.push_back(static_cast<std::int32_t>(pair));
     }
@@ -279,20 +281,18 @@ void read_controls(Builder& builder, const Block& block) {
 }
 
 void read_restart(Builder& builder, const Block& block) {
-  Step& step = current(builder);
   if (block.has("FREQUENCY") && block.has("NUMBER INTERVAL")) {
     return builder.error(block, block.location, "give FREQUENCY or NUMBER INTERVAL, not both");
   }
-  step.checkpoint_frequency.reset();
-  step.checkpoint_number_interval.reset();
   const std::int32_t frequency = block.integer("FREQUENCY", 1), intervals = block.integer("NUMBER INTERVAL", 1);
   if (frequency < 0 || intervals < 0)
     return builder.error(block, block.location, "FREQUENCY and NUMBER INTERVAL must not be negative; correct it");
-  if (block.has("NUMBER INTERVAL")) {
-    if (intervals > 0) step.checkpoint_number_interval = intervals;
-  } else if (frequency > 0) {  // FREQUENCY=0: none
-    step.checkpoint_frequency = frequency;
-  }
+  const auto unless_zero = [](std::int32_t value) { return value > 0 ? std::optional(value) : std::nullopt; };
+  const bool by_intervals = block.has("NUMBER INTERVAL");
+  auto& every = builder.in_step ? current(builder).checkpoint_frequency : builder.checkpoint_frequency;
+  auto& number = builder.in_step ? current(builder).checkpoint_number_interval : builder.checkpoint_number_interval;
+  every = by_intervals ? std::nullopt : unless_zero(frequency);
+  number = by_intervals ? unless_zero(intervals) : std::nullopt;
 }
 
 const RegisterKeyword step{
@@ -325,7 +325,7 @@ const RegisterKeyword controls{{"CONTROLS",
 // OVERLAY is how checkpoints are always kept: the last whole one.
 const RegisterKeyword restart{{"RESTART",
                                Phase::history,
-                               Place::step,
+                               Place::anywhere,
                                {required(flag("WRITE")), integer("FREQUENCY"), integer("NUMBER INTERVAL"),
                                 flag("OVERLAY"), choice("TIME MARKS", {"NO"})},
                                read_restart}};

@@ -97,8 +97,9 @@ void read_nodes_of_surface(Builder& builder, const Block& block, Surface& surfac
   surface.kind = Surface::Kind::nodes;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
-    if (row.has(1))
+    if (row.has(1) && row.real(1, "area of a node") != 1.0)  // the default, which Abaqus/CAE writes out
       row.error("areas of node-based surfaces are not supported; they are found from the mesh: remove field 2");
+    row.at_most(2);
     if (row.ok()) builder.nodes_of(row.text(0), block, line.location, surface.nodes);
   }
   auto& nodes = surface.nodes;

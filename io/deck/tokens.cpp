@@ -112,6 +112,7 @@ void Tokenizer::read(const std::string& path, Location included_from, std::strin
                                    path));
     return;
   }
+  if (text->find('\n') == std::string::npos) std::ranges::replace(*text, '\r', '\n');  // line ends of old Macintoshes
   tokens_.texts.push_back(std::move(*text));
   const std::string& stored = tokens_.texts.back();
   const auto file = static_cast<std::int32_t>(tokens_.files.size());
@@ -156,9 +157,10 @@ void Tokenizer::keyword_lines(const std::vector<KeywordText>& lines, std::int32_
   const Block& block = tokens_.blocks.back();
   const bool include = block.keyword == "INCLUDE";
   if (const Parameter* input = block.find("INPUT"); input != nullptr && input->has_value) {
+    std::string name = input->raw;
+    std::ranges::replace(name, '\\', '/');  // decks come from Windows, too
     const auto folder = std::filesystem::path(tokens_.files[location.file]).parent_path();
-    const std::string path =
-        std::filesystem::path(input->raw).is_absolute() ? input->raw : (folder / input->raw).string();
+    const std::string path = std::filesystem::path(name).is_absolute() ? name : (folder / name).string();
     if (include) tokens_.blocks.pop_back();
     read(path, location, include ? "INCLUDE" : std::string(block.written));
   } else if (include) {

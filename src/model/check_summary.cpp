@@ -147,8 +147,7 @@ void Summary::add_group(const Part& part, MassProperties& properties) {
     for (int i = 0; i < 3; ++i) position[4 * node + i] = model_.nodes.coordinates[node][i];
   }
   for (std::size_t node = 0; node <= model_.nodes.id.size(); ++node) force[4 * node + 3] = rounding_constant(1.0);
-  std::vector<double> history(static_cast<std::size_t>(group->history_size()) * group->padded_size());
-  group->initialize_history(history);
+  auto history = group->initial_history();
   std::vector<double> orientation(position.size()), moment(force);
   for (std::size_t i = 0; i < orientation.size(); i += 4) orientation[i] = 1.0;
   const ExplicitCycle cycle{

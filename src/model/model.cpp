@@ -21,16 +21,16 @@ std::int32_t Model::general_step_before(std::int32_t step) const {
 }
 
 std::string Model::node_name(std::int32_t row) const {
-  const std::int32_t instance = nodes.instance.empty() ? -1 : nodes.instance[row];
-  if (instance < 0) return fmt::format("{}", nodes.id[row]);
-  return fmt::format("{}.{}", instances[instance].name, nodes.id[row] - instances[instance].node_offset);
+  if (nodes.instance.empty()) return fmt::format("{}", nodes.id[row]);
+  const Instance& instance = instances[nodes.instance[row]];
+  return instance.name + (instance.name.empty() ? "" : ".") + fmt::format("{}", nodes.id[row] - instance.node_offset);
 }
 
 std::string Model::element_name(ElementRef element) const {
   const ElementTable& table = elements[element.table];
-  const std::int32_t instance = table.instance.empty() ? -1 : table.instance[element.row];
-  if (instance < 0) return fmt::format("{}", table.id[element.row]);
-  return fmt::format("{}.{}", instances[instance].name, table.id[element.row] - instances[instance].element_offset);
+  if (table.instance.empty()) return fmt::format("{}", table.id[element.row]);
+  const Instance& instance = instances[table.instance[element.row]];
+  return instance.name + (instance.name.empty() ? "" : ".") + fmt::format("{}", table.id[element.row] - instance.element_offset);
 }
 
 namespace {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <csignal>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <optional>
 
@@ -13,6 +14,7 @@
 #include "hdf5_rows.hpp"
 #include "info.hpp"
 #include "model/diagnostics.hpp"
+#include "results_diff.hpp"
 #include "results_fake.hpp"
 #include "results_index.hpp"
 #include "results_schedule.hpp"
@@ -365,6 +367,67 @@ TEST_F(Results, InfoTellsStepsFramesAndHistories) {
   }
   EXPECT_THROW(describe_results(directory + "/job.sta"), InputError);
   EXPECT_THROW(describe_results(directory + "/none.h5"), InputError);
+}
+
+TEST_F(Results, DiffNamesWhereTwoRunsPart) {
+  const std::string one = fake::folder("diff_one"), two = fake::folder("diff_two");
+  run_job(world, one);
+  run_job(world, two);
+  const std::string a = one + "/job.h5", b = two + "/job.h5";
+  EXPECT_TRUE(compare_results(a, b, 0.0).same);
+  if (world.is_root()) {
+    const Hdf5File file(b, Hdf5File::Mode::modify);
+    for (const std::string path : {"/step_2/frame_3/node/U", "/step_2/frame_1/element/FAKE4/S"}) {
+      const Extent extent = file.extent(path);
+      auto values = file.read(path);
+      values.back() += 1e-3 * *std::max_element(values.begin(), values.end());
+      file.remove(path);
+      file.write(path, extent, values);
+    }
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto found = compare_results(a, b, 0.0);
+  EXPECT_FALSE(found.same);
+  for (const char* part : {"they part first at step 2 (ROLL), frame 1, time", "S of FAKE4 of element", "component 6", "U  "})
+    EXPECT_NE(found.text.find(part), std::string::npos) << part << " is missing in\n" << found.text;
+  EXPECT_TRUE(compare_results(a, b, 0.01).same) << "within the tolerance";
+}
+
+TEST_F(Results, DiffTellsWhatOneOfThemLacks) {
+  const std::string one = fake::folder("diff_whole"), two = fake::folder("diff_cut");
+  run_job(world, one);
+  run_job(world, two);
+  if (world.is_root()) Hdf5File(two + "/job.h5", Hdf5File::Mode::modify).remove("/step_2/frame_3");
+  MPI_Barrier(MPI_COMM_WORLD);
+  const auto found = compare_results(one + "/job.h5", two + "/job.h5", 1.0);
+  EXPECT_FALSE(found.same);
+  EXPECT_NE(found.text.find("step_2/frame_3 stands only in A"), std::string::npos) << found.text;
+}
+
+/// What open_results says of a file, or "".
+std::string trouble_with(const std::string& path) {
+  try {
+    open_results(path);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+TEST_F(Results, FilesAreCalledWhatTheyAre) {
+  const std::string directory = fake::folder("names");
+  run_job(world, directory);
+  const std::string whole = directory + "/job.h5", cut = directory + "/cut.h5";
+  if (world.is_root()) {
+    std::filesystem::copy_file(whole, cut);
+    std::filesystem::resize_file(cut, std::filesystem::file_size(whole) / 2);
+  }
+  MPI_Barrier(MPI_COMM_WORLD);
+  EXPECT_EQ(trouble_with(whole), "");
+  EXPECT_NE(trouble_with(cut).find("the file is not whole"), std::string::npos);
+  EXPECT_NE(trouble_with(directory + "/job.sta").find("no HDF5 file"), std::string::npos);
+  EXPECT_NE(trouble_with(directory + "/none.h5").find("no such file"), std::string::npos);
+  EXPECT_NE(trouble_with(directory + "/job.ckpt.h5").find("this is a checkpoint"), std::string::npos);
 }
 
 TEST(Signals, ReachAllRanksFromAny) {

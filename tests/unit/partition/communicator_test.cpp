@@ -6,6 +6,7 @@
 #include <array>
 #include <vector>
 
+#include "door.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -77,6 +78,18 @@ TEST(Communicator, LowestFailingRankIsHeard) {
   } catch (const AnalysisError& error) {
     EXPECT_STREQ(error.what(), "rank 0");
   }
+}
+
+TEST(Door, ARankThatFailsAloneLearnsIt) {
+  const Communicator communicator;
+  {
+    Door shared(communicator);
+    EXPECT_TRUE(shared.everyone_comes(10.0));
+  }
+  Door door(communicator);
+  if (!communicator.is_root()) EXPECT_FALSE(door.everyone_comes(0.05));
+  MPI_Barrier(communicator.handle());  // the collective in which the root was
+  if (communicator.is_root()) EXPECT_TRUE(door.everyone_comes(10.0)) << "the others came before";
 }
 
 TEST(Communicator, BroadcastTakesTheRootsText) {
