@@ -74,6 +74,7 @@ class Analysis : public ResultSource {
   std::vector<double> angular_acceleration, reaction_moment;  // 4 a node that turns
   std::vector<std::array<double, 6>> body_reaction;      // per rigid body: reaction force and moment at the reference node
   std::vector<Point> body_angular_acceleration;          // per rigid body
+  double output_increment = 0.0;       // explicit: the increment across which they accelerate
   /// Explicit: work that State::nodal_work already counts although it belongs to the first half of the increment to come, as
   /// velocities do; per local node, filled with the other output.
   std::vector<NodalWork> work_ahead;

@@ -13,6 +13,7 @@ namespace balocco {
 void ExplicitStep::fill_output() {
   timers.measure(Phase::output, [&] {
     auto& acceleration = analysis_.acceleration;
+    analysis_.output_increment = last_increment_ > 0.0 ? last_increment_ : next_increment_;
     std::fill(analysis_.reaction.begin(), analysis_.reaction.end(), 0.0);
     for (std::size_t node = 0; node < inverse_mass_.size(); ++node)
       for (std::size_t c = 0; c < 3; ++c) acceleration[4 * node + c] = inverse_mass_[node] * force_[4 * node + c];
