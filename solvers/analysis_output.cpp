@@ -30,7 +30,7 @@ double conserved_square(const Analysis& analysis, const double* velocity, const 
   return square(velocity) - half * half * square(acceleration);
 }
 
-/// Calls `visit(local node, area, output)` for every slave node on this rank of every pair.
+/// Calls `visit(local node, output, contact point, master body)` for every slave node on this rank of every pair.
 template <class Visit>
 void for_each_contact_point(const Analysis& analysis, Visit visit) {
   for (std::size_t pair = 0; pair < analysis.contacts.size(); ++pair) {
@@ -39,8 +39,31 @@ void for_each_contact_point(const Analysis& analysis, Visit visit) {
     for (std::int32_t point = 0; point < contact.size(); ++point)
       visit(contact.nodes()[point],
             contact.output(point, analysis.current.position.data(), master, analysis.current.contact[pair][point]),
-            analysis.current.contact[pair][point]);
+            analysis.current.contact[pair][point], master);
   }
+}
+
+/// What the energy of a stiff spring at an instant lacks, so that it stays in balance through an impact: central differences and the
+/// discrete gradient conserve the mean of its energies in the middles of both increments, plus (dt / 2)^2 force . acceleration.
+double stiff_spring_correction(const Analysis& analysis, const RigidBodyState& master, std::int32_t node,
+                               const RigidContact::Output& output, const ContactPoint& point) {
+  const Vector3<double> force{output.normal_force};
+  const double pressure = std::sqrt(dot(force, force)), half = 0.5 * analysis.output_increment;
+  if (!(pressure > 0.0) || point.stiff_spring == 0.0) return 0.0;
+  const auto normal = (1.0 / pressure) * force;
+  const double* const x = &analysis.current.position[4 * node];
+  const double* const a = &analysis.acceleration[4 * node];
+  const auto arm = Vector3<double>{x[0], x[1], x[2]} - Vector3<double>{master.position};
+  const auto below = Vector3<double>{master.velocity} + cross(Vector3<double>{master.angular_velocity}, arm);
+  const double departure = dot(Vector3<double>{velocity_now(analysis, node)} - below, normal);
+  const double change = half * dot(Vector3<double>{a[0], a[1], a[2]}, normal);
+  const auto energy = [&](double gap) {
+    const double stretched = std::max(0.0, point.multiplier - point.stiff_spring * gap);
+    return 0.5 * stretched * stretched / point.stiff_spring;
+  };
+  const double before = energy(output.gap - half * (departure - change));
+  const double after = energy(output.gap + half * (departure + change));
+  return 0.5 * (before + after) - energy(output.gap) + half * pressure * change;
 }
 
 using NodalField = void (*)(const Analysis&, std::span<double>);
@@ -130,7 +153,7 @@ void reaction_moment(const Analysis& analysis, std::span<double> values) {
 template <class Value>
 void contact_scalar(const Analysis& analysis, std::span<double> values, double elsewhere, Value value) {
   std::ranges::fill(values, elsewhere);
-  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint&) {
+  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const auto&...) {
     values[node] = std::max(values[node], value(output));
   });
 }
@@ -151,7 +174,7 @@ void contact_slip(const Analysis& analysis, std::span<double> values) {
 void contact_opening(const Analysis& analysis, std::span<double> values) {
   std::ranges::fill(values, 0.0);
   std::vector<bool> seen(values.size());
-  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint&) {
+  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const auto&...) {
     values[node] = seen[node] ? std::min(values[node], output.gap) : output.gap;
     seen[node] = true;
   });
@@ -160,7 +183,7 @@ void contact_opening(const Analysis& analysis, std::span<double> values) {
 template <class Value>
 void contact_vector(const Analysis& analysis, std::span<double> values, Value value) {
   std::ranges::fill(values, 0.0);
-  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint&) {
+  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const auto&...) {
     for (int i = 0; i < 3; ++i) values[3 * node + i] += value(output)[i];
   });
 }
@@ -290,9 +313,10 @@ EnergyBalance Analysis::sum_energies() const {
     const auto in_reference = transpose(rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]})) * spin;
     sums[kinetic].add(0.5 * dot(in_reference, given.tensor * in_reference));
   }
-  for_each_contact_point(*this, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint& point) {
+  for_each_contact_point(*this, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint& point,
+                                    const RigidBodyState& master) {
     if (!domain.owned[node]) return;
-    sums[contact_springs].add(output.spring_energy);
+    sums[contact_springs].add(output.spring_energy + stiff_spring_correction(*this, master, node, output, point));
     sums[friction].add(point.frictional_dissipation);
   });
   communicator.sum(std::span<ExactSum>(sums));

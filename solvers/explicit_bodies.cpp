@@ -127,17 +127,21 @@ RigidDynamics::Yielding RigidDynamics::yielding(std::size_t index) const {
     return std::any_of(&body.condition[first], &body.condition[first] + 3, [](const auto* c) { return c == nullptr; });
   };
   Yielding yielding;
-  if (free(0)) yielding.inverse_mass = 1.0 / body.mass;
+  if (free(0) && body.mass > 0.0) yielding.inverse_mass = 1.0 / body.mass;
   if (free(3)) {
-    // About the centre of mass, the smallest inertia there is about any point.
+    // About the centre of mass, the smallest inertia there is about any point; of the directions that are free.
     const Eigen::Vector3d c =
         Eigen::Vector3d(body.first_moment[0], body.first_moment[1], body.first_moment[2]) / std::max(body.mass, 1e-300);
     Eigen::Matrix3d inertia;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j)
         inertia(i, j) = body.inertia(i, j) - body.mass * ((i == j ? c.squaredNorm() : 0.0) - c[i] * c[j]);
-    yielding.inverse_inertia =
-        1.0 / Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues()(0);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j)
+        if (body.condition[3 + i] != nullptr || body.condition[3 + j] != nullptr) inertia(i, j) = 0.0;
+    const auto moments = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(inertia, Eigen::EigenvaluesOnly).eigenvalues();
+    for (int i = 0; i < 3; ++i)
+      if (moments[i] > 0.0) yielding.inverse_inertia = std::max(yielding.inverse_inertia, 1.0 / moments[i]);
   }
   return yielding;
 }
