@@ -20,7 +20,7 @@ namespace balocco {
 
 /// Energies of the whole model (all ranks), Abaqus's names. total = kinetic + internal + viscous + friction - work stays constant.
 struct EnergyBalance {
-  double kinetic = 0.0;     // ALLKE; explicit: as central differences conserve it, 1/2 v(n-1/2) m v(n+1/2)
+  double kinetic = 0.0;     // ALLKE
   double internal = 0.0;    // ALLIE = strain + hourglass + plastic + contact (penalty springs)
   double strain = 0.0;      // ALLSE
   double plastic = 0.0;     // ALLPD
@@ -32,7 +32,7 @@ struct EnergyBalance {
   double total = 0.0;       // ETOTAL
 
   /// What an error of the balance is measured by: the energy that is, or has come, into the model.
-  double magnitude() const { return std::max(std::abs(kinetic) + std::abs(internal) + viscous + friction, std::abs(work)); }
+  double magnitude() const { return std::max(kinetic + std::abs(internal) + viscous + friction, std::abs(work)); }
 };
 
 /// Resultant of one contact pair on the slave surface, global directions.
