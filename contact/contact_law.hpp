@@ -91,6 +91,14 @@ inline double stiff_normal_force(double multiplier, double stiffness, double bef
   return square / (opening + std::sqrt(opening * opening + 2.0 * yielding * square));
 }
 
+/// What the tangential spring of a closed point holds, without an elastic slip that the deck gives.
+inline double stretch_energy(const PenaltyParameters& parameters, const Vector3<double>& place,
+                             const SurfacePoint<double>& nearest, const ContactPoint& point) {
+  Vector3<double> stretch{place[0] - point.anchor[0], place[1] - point.anchor[1], place[2] - point.anchor[2]};
+  stretch = stretch - dot(stretch, nearest.normal) * nearest.normal;
+  return 0.5 * parameters.stiffness * dot(stretch, stretch);
+}
+
 /// `point`: history at the start on entry, at the end on return. Friction acts from the increment in which the point
 /// closes: the spring starts from where the point was over the surface when that increment began.
 template <class T>

@@ -31,8 +31,8 @@ Matrix3<T> constant(const Matrix3<double>& matrix) {
   return result;
 }
 
-/// Stiffness of a stiff spring over that of the pair: under a pressure p the penetration is then p h / (10 M).
-constexpr double stiff_factor = 20.0;
+/// Stiffness of a stiff spring over that of the pair: under a pressure p the penetration is then p h / (5 M).
+constexpr double stiff_factor = 10.0;
 
 InputError refused(const Model& model, const ContactPair& pair, const std::string& what) {
   return InputError(fmt::format("{}: error: *CONTACT PAIR: {}", model.where(pair.location), what));
@@ -184,6 +184,8 @@ void RigidContact::add_stiff_force(std::int32_t point, const StiffCycle& cycle, 
   contact.pressure = stiff_normal_force(state.multiplier, state.stiff_spring, before, after, yielding);
   state.stiff_force = contact.pressure;
   if (!(contact.pressure > 0.0)) {
+    if (friction_ > 0.0 && state.closed > 0.0)  // what the tangential spring still holds is lost, too
+      state.frictional_dissipation += stretch_energy(parameters(point), place, nearest, state);
     open(state, place);
     return;
   }
