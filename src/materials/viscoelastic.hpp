@@ -43,12 +43,14 @@ struct Viscoelastic {
   template <class T>
   struct State {
     SymmetricTensor<T> elastic{};  // S0
+    SymmetricTensor<T> strain{};   // (Cbar - I) / 2, Cbar = J^-2/3 C
     std::array<SymmetricTensor<T>, most_terms> branch{};
     T dissipation = T(0.0);
   };
   template <class S, class Visit>
   void fields(S& state, Visit&& visit) const {
     visit("INSTANTANEOUS STRESS", state.elastic.component);
+    visit("ISOCHORIC STRAIN", state.strain.component);
     for (std::size_t i = 0; i < terms.size(); ++i) visit("BRANCH STRESS", state.branch[i].component);
     visit("VISCOUS DISSIPATION", state.dissipation);
   }
@@ -67,20 +69,21 @@ struct Viscoelastic {
 
     SymmetricTensor<T> total = T(long_term()) * elastic;
     const SymmetricTensor<T> change = elastic - state.elastic;
+    const SymmetricTensor<T> strain = green_strain(root * f - Matrix3<T>::identity()), stretching = strain - state.strain;
     for (std::size_t i = 0; i < terms.size(); ++i) {
       const double x = increment / terms[i].time, decay = std::exp(-x);
       const double gain = x > 0.0 ? terms[i].share * (-std::expm1(-x) / x) : terms[i].share;
       const SymmetricTensor<T> old = state.branch[i];
       state.branch[i] = T(decay) * old + T(gain) * change;
       total = total + state.branch[i];
-      // Work on the branch less what it stores.
-      const double compliance = 1.0 / (4.0 * shear);
-      const T work = compliance * double_contraction(old + state.branch[i], change);
-      const T stored = (compliance / terms[i].share) * (double_contraction(state.branch[i], state.branch[i]) -
-                                                        double_contraction(old, old));
+      // Work on the branch, s : d = h : d(Cbar) / 2, less what it stores, |h|^2 / (4 G g) as at small strain.
+      const T work = 0.5 * double_contraction(old + state.branch[i], stretching);
+      const T stored = (1.0 / (4.0 * shear * terms[i].share)) * (double_contraction(state.branch[i], state.branch[i]) -
+                                                                 double_contraction(old, old));
       state.dissipation = state.dissipation + (work - stored);
     }
     state.elastic = elastic;
+    state.strain = strain;
     const SymmetricTensor<T> pushed = square * symmetric_part(f * full(total) * transpose(f));
     return full(pushed.plus_identity(pressure - (1.0 / 3.0) * trace(pushed))) * inverse_transposed;
   }
