@@ -146,13 +146,20 @@ void BeamGroup::add_pack(std::int32_t first, const ExplicitCycle& cycle, std::sp
   scatter_subtract(forces.moment_a, target, 2, cycle.forces.moment);
   scatter_subtract(forces.moment_b, target + 1, 2, cycle.forces.moment);
 
-  // What forces and moments add by turning with the element is bounded, not solved for.
+  // What forces and moments add by turning with the element, and the stretch that a rotation causes in a sheared element, are
+  // bounded, not solved for: with masses m and inertias J, F (1 / (m L) + 3 L / (4 J)) + M / J, and r + omega sqrt(r) with
+  // r = E A L (shear strain)^2 / (2 J), because J makes shear about as fast as stretch.
   const auto magnitude = [](const Pack& x, const Pack& y, const Pack& z) { return square_root(x * x + y * y + z * z); };
-  const Pack j = load(data + inertia * pack_size);
+  const Pack j = load(data + inertia * pack_size), free = load(data + frequency * pack_size);
+  const double area = section_data_.shape.area;
+  const Pack sheared = (0.5 * section_data_.youngs_modulus * area) *
+                       (l / j * (k.strain[0] * k.strain[0] + k.strain[1] * k.strain[1]));
   const Pack turning = magnitude(resultant[0], resultant[1], resultant[2]) *
-                           (4.0 / (section_data_.density * section_data_.shape.area * l * l) + 0.5 * l / j) +
-                       magnitude(resultant[3], resultant[4], resultant[5]) / j;
-  const Pack omega = square_root(load(data + frequency * pack_size) + turning);
+                           (2.0 / (section_data_.density * area * l * l) + 0.75 * l / j) +
+                       magnitude(resultant[3], resultant[4], resultant[5]) / j +
+                       sheared + square_root(free * sheared) +
+                       2.0 * free * std::experimental::abs(k.strain[2]);
+  const Pack omega = square_root(free + turning);
   const Pack ratio = 0.5 * damping / omega;
   const Pack increment = 2.0 * (square_root(1.0 + ratio * ratio) - ratio) / omega;
   merge(increment, first, stable);
