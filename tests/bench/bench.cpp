@@ -24,6 +24,7 @@ namespace {
 struct Subject {
   std::string type, law;
   std::vector<double> parameters;
+  std::vector<MaterialOption> options = {};
 };
 
 /// Nodes of a grid of cells and the connectivity of one element type in it.
@@ -36,8 +37,8 @@ struct Mesh {
 std::vector<std::vector<int>> elements_of_cell(const std::string& type) {
   if (type == "C3D8R" || type == "C3D8") return {{0, 1, 3, 2, 4, 5, 7, 6}};
   if (type == "C3D6") return {{0, 1, 3, 4, 5, 7}, {0, 3, 2, 4, 7, 6}};
-  if (type == "M3D4" || type == "M3D4R") return {{0, 1, 3, 2}};
-  if (type == "M3D3") return {{0, 1, 3}, {0, 3, 2}};
+  if (type == "M3D4" || type == "M3D4R" || type == "S4" || type == "S4R") return {{0, 1, 3, 2}};
+  if (type == "M3D3" || type == "S3R") return {{0, 1, 3}, {0, 3, 2}};
   return {{0, 1}};
 }
 
@@ -77,6 +78,7 @@ Model make_model(const Subject& subject, const Mesh& mesh) {
   material.density = 1.0;
   material.law = subject.law;
   material.parameters = subject.parameters;
+  material.options = subject.options;
   model.materials.push_back(material);
   Section section;
   section.kind = model.elements[0].type->section;
@@ -145,6 +147,10 @@ std::vector<Subject> subjects() {
     all.push_back({type, "lamina", {1000.0, 100.0, 0.3, 50.0, 50.0, 50.0}});
     all.push_back({type, "neo-hooke", {0.5, 0.05}});
   }
+  for (const std::string type : {"S4R", "S4", "S3R"}) {
+    all.push_back({type, "elastic", {1000.0, 0.3}});
+    all.push_back({type, "elastic", {1000.0, 0.3}, {{"plastic", {0.0}, {{1.0, 0.0}, {10.0, 1.0}}}}});
+  }
   all.push_back({"T3D2", "elastic", {1000.0, 0.3}});
   all.push_back({"B31", "elastic", {1000.0, 0.3}});
   return all;
@@ -158,7 +164,7 @@ int main(int argc, char** argv) {
   using namespace balocco;
   for (const auto& subject : bench::subjects())
     if (find_element_type(subject.type) != nullptr)
-      benchmark::RegisterBenchmark((subject.type + "/" + subject.law).c_str(), [subject](benchmark::State& state) {
+      benchmark::RegisterBenchmark((subject.type + "/" + (subject.options.empty() ? subject.law : subject.options[0].name)).c_str(), [subject](benchmark::State& state) {
         bench::cycle_elements(state, subject);
       })->Unit(benchmark::kMillisecond);
   benchmark::Initialize(&argc, argv);

@@ -22,9 +22,11 @@ Request request(std::string_view variable, int layer, int layers) {
 }
 
 /// Components of what belongs to a layer; 0: it does not.
-int layer_components(std::string_view variable) {
+int layer_components(const ShellSection& section, std::string_view variable) {
+  if (section.layers.empty()) return 0;
   if (variable == "S" || variable == "LE") return 6;
-  return variable == "MISES" || variable == "SENER" ? 1 : 0;
+  if (variable == "MISES" || variable == "SENER") return 1;
+  return std::ranges::any_of(section.plies, [&](const ShellPly& ply) { return history_scalar(*ply.law, variable) >= 0; }) ? 1 : 0;
 }
 
 /// Components of what belongs to the section as a whole: forces SF (11 22 12 13 23) and moments SM (11 22 12) a unit length, strains
@@ -60,7 +62,7 @@ std::array<double, 2> middle_shear(const double* record, const std::array<double
 template <int corners, int points>
 int ShellGroup<corners, points>::point_components(std::string_view variable) const {
   const bool outer = variable.ends_with("_BOT") || variable.ends_with("_TOP");
-  const int of_layer = section_.layers.empty() ? 0 : layer_components(request(variable, 0, layers()).variable);
+  const int of_layer = layer_components(section_, request(variable, 0, layers()).variable);
   return outer || of_layer > 0 ? of_layer : section_components(variable);
 }
 
@@ -73,7 +75,7 @@ void ShellGroup<corners, points>::point_output(std::string_view name, std::int32
   const auto here = strain_at<double>(data, point, strain);
   const double h = data[(Record::point + point * Record::point_size + 1) * pack_size];
   const auto [variable, index] = request(name, integration_point % layers(), layers());
-  if (layer_components(variable) > 0)
+  if (layer_components(section_, variable) > 0)
     return layer_output(variable, point, index, {here, h}, history, values);
   section_output(variable, point, {here, h}, middle_shear<corners>(data, strain.shear), history, values);
 }
@@ -86,6 +88,7 @@ void ShellGroup<corners, points>::layer_output(std::string_view variable, int po
   const auto strain = layer_strain<double>(ply, layer.height * at.thickness, at.strain.membrane, at.strain.curvature);
   const auto own = history.subspan(point * section_.history_size + layer.history, ply.law->history_size());
   const double stretch = ply.law->transverse_stretch(strain, own);
+  std::ranges::fill(values, 0.0);  // another ply's law may know the variable
   if (const int row = history_scalar(*ply.law, variable); row >= 0) {
     values[0] = own[row];
   } else if (variable == "LE") {

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "elements/shells/shell_kernel.hpp"
+#include "elements/shells/shell_normals.hpp"
 #include "elements/shells/shell_reference.hpp"
 #include "shell_fixture.hpp"
 
@@ -253,6 +254,30 @@ TEST(Shell, OffsetAddsTheMomentOfTheMembraneForce) {
   const Eigen::VectorXd force = shell.forces();
   EXPECT_NEAR(force[6], 0.5 * 100.0 * 0.1 * 1e-6, 1e-11);
   EXPECT_NEAR(force[6 + 4], -0.05 * force[6], 1e-12);  // the force acts half a thickness below the node
+}
+
+TEST(Shell, NeighboursShareNormalsWithinTwentyDegrees) {
+  for (const double degrees : {15.0, 25.0}) {
+    const double c = std::cos(degrees * M_PI / 180.0), s = std::sin(degrees * M_PI / 180.0);
+    Shell bent("S4R", {{-1, 0, 0}, {0, 0, 0}, {c, 0, s}, {-1, 1, 0}, {0, 1, 0}, {c, 1, s}}, {0, 1, 4, 3, 1, 2, 5, 4});
+    EXPECT_TRUE(set_corner_normals(bent.model, {}).empty());
+    const Point left = bent.model.elements[0].corner_normal[1], right = bent.model.elements[0].corner_normal[4];
+    const double half = degrees < 20.0 ? 0.5 * degrees * M_PI / 180.0 : 0.0;
+    EXPECT_NEAR(left[0], -std::sin(half), 1e-15);
+    EXPECT_NEAR(right[0], degrees < 20.0 ? -std::sin(half) : -s, 1e-15);
+  }
+}
+
+TEST(Shell, NormalsThatFlipAreFoundAndGivenNormalsRule) {
+  Shell flat("S4R", {{-1, 0, 0}, {0, 0, 0}, {1, 0, 0}, {-1, 1, 0}, {0, 1, 0}, {1, 1, 0}}, {0, 1, 4, 3, 1, 4, 5, 2});
+  GivenNormals given;
+  given.at_node[1] = {0.6, 0.0, 0.8};
+  given.at_corner[{{0, 0}, 1}] = {0.0, 0.6, 0.8};
+  const auto opposed = set_corner_normals(flat.model, given);
+  ASSERT_EQ(opposed.size(), 1u);
+  EXPECT_EQ(opposed[0].second.row, 1);
+  EXPECT_EQ(flat.model.elements[0].corner_normal[1][1], 0.6);
+  EXPECT_EQ(flat.model.elements[0].corner_normal[4][0], 0.6);
 }
 
 TEST(Shell, SectionRulesIntegrateExactly) {
