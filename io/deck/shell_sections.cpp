@@ -26,18 +26,24 @@ bool read_offset(Builder& builder, const Block& block, ShellOptions& shell) {
     return true;
   }
   const auto value = parse_real(text);
-  if (value) shell.offset = *value;
-  else builder.error(block, block.location, fmt::format("OFFSET={} is no number; write SPOS, SNEG or a fraction of the thickness", text));
+  if (value)
+    shell.offset = *value;
+  else
+    builder.error(block, block.location,
+                  fmt::format("OFFSET={} is no number; write SPOS, SNEG or a fraction of the thickness", text));
   return value.has_value();
 }
 
 /// Integration points through a thickness, checked.
 int points_of(Row& row, int field, int otherwise, bool gauss) {
   const auto points = row.integer_or(field, otherwise, "number of integration points");
-  const bool good = gauss ? points >= 2 && points <= most_points : points >= 3 && points <= most_points && points % 2 == 1;
+  const bool good =
+      gauss ? points >= 2 && points <= most_points : points >= 3 && points <= most_points && points % 2 == 1;
   if (row.ok() && !good) {
     row.error(fmt::format("{} integration points through the thickness; {}", points,
-                          gauss ? "Gauss's rule takes 2 to 15" : "Simpson's rule takes an odd number from 3 to 15 (or say SECTION INTEGRATION=GAUSS)"));
+                          gauss
+                              ? "Gauss's rule takes 2 to 15"
+                              : "Simpson's rule takes an odd number from 3 to 15 (or say SECTION INTEGRATION=GAUSS)"));
   }
   return static_cast<int>(points);
 }
@@ -60,7 +66,8 @@ bool read_plies(Builder& builder, const Block& block, Section& section) {
     check_thickness(row, ply.thickness);
     ply.points = points_of(row, 1, 3, section.shell.gauss);
     if (row.has(3) && row.ok() && !parse_real(row.text(3)))
-      row.error(fmt::format("'{}' is no angle; write the ply's angle in degrees from the section's ORIENTATION", row.text(3)));
+      row.error(fmt::format("'{}' is no angle; write the ply's angle in degrees from the section's ORIENTATION",
+                            row.text(3)));
     if (row.ok()) ply.angle = row.real_or(3, 0.0, "angle in degrees") * std::numbers::pi / 180.0;
     row.at_most(5);  // the fifth is the ply's name
     if (!row.ok()) return false;
@@ -108,12 +115,14 @@ void read_shell_section(Builder& builder, const Block& block) {
   auto section = begin(builder, block, elements);
   if (!section) return;
   section->shell.gauss = block.value("SECTION INTEGRATION") == "GAUSS";
-  const bool good = block.has("COMPOSITE") ? read_plies(builder, block, *section)
-                                           : need_material(builder, block) && read_thickness(builder, block, *section, true);
+  const bool good = block.has("COMPOSITE")
+                        ? read_plies(builder, block, *section)
+                        : need_material(builder, block) && read_thickness(builder, block, *section, true);
   if (good) assign_section(builder, block, *std::move(section), elements);
 }
 
-/// The 21 constants, 8 a line, and the thickness for which they hold: what *TRANSVERSE SHEAR STIFFNESS and contact ask for.
+/// The 21 constants, 8 a line, and the thickness for which they hold: what *TRANSVERSE SHEAR STIFFNESS and contact ask
+/// for.
 bool read_constants(Builder& builder, const Block& block, Section& section) {
   constexpr std::size_t count = 21;
   for (const auto& line : block.lines) {
@@ -122,15 +131,17 @@ bool read_constants(Builder& builder, const Block& block, Section& section) {
     if (!row.ok()) return false;
   }
   if (section.shell.stiffness.size() == count) {
-    // A homogeneous sheet of the same membrane and bending stiffness has this thickness; only mass and output ask for it.
+    // A homogeneous sheet of the same membrane and bending stiffness has this thickness; only mass and output ask for
+    // it.
     section.thickness = std::sqrt(12.0 * section.shell.stiffness[9] / section.shell.stiffness[0]);
     if (section.thickness > 0.0) return true;
     builder.error(block, block.location, "D11 and D44 must be positive; correct the constants");
     return false;
   }
-  builder.error(block, block.location,
-                fmt::format("it has {} constants; give D11, D12, D22, D13, ... D66, 21 in all, or MATERIAL and a thickness",
-                            section.shell.stiffness.size()));
+  builder.error(
+      block, block.location,
+      fmt::format("it has {} constants; give D11, D12, D22, D13, ... D66, 21 in all, or MATERIAL and a thickness",
+                  section.shell.stiffness.size()));
   return false;
 }
 
@@ -148,7 +159,8 @@ void read_general_section(Builder& builder, const Block& block) {
 void read_transverse_shear(Builder& builder, const Block& block) {
   auto& sections = builder.model.sections;
   if (sections.empty() || sections.back().kind != Section::Kind::shell)
-    return builder.error(block, block.location, "it must follow *SHELL SECTION or *SHELL GENERAL SECTION; move it there");
+    return builder.error(block, block.location,
+                         "it must follow *SHELL SECTION or *SHELL GENERAL SECTION; move it there");
   if (block.lines.empty()) return builder.error(block, block.location, "the stiffness is missing; add K11, K22, K12");
   Row row(builder, block, block.lines[0]);
   const double k11 = row.real(0, "K11"), k22 = row.real(1, "K22"), k12 = row.real_or(2, 0.0, "K12");
@@ -193,17 +205,18 @@ void read_normals(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword section{{"SHELL SECTION",
-                               Phase::sections,
-                               Place::model,
-                               {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"), flag("COMPOSITE"),
-                                name("OFFSET"), flag("NODAL THICKNESS"), choice("SECTION INTEGRATION", {"SIMPSON", "GAUSS"}), real("DENSITY")},
-                               read_shell_section}};
+const RegisterKeyword section{
+    {"SHELL SECTION",
+     Phase::sections,
+     Place::model,
+     {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"), flag("COMPOSITE"),
+      name("OFFSET"), flag("NODAL THICKNESS"), choice("SECTION INTEGRATION", {"SIMPSON", "GAUSS"}), real("DENSITY")},
+     read_shell_section}};
 const RegisterKeyword general{{"SHELL GENERAL SECTION",
                                Phase::sections,
                                Place::model,
-                               {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"), flag("COMPOSITE"),
-                                name("OFFSET"), flag("NODAL THICKNESS"), real("DENSITY")},
+                               {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"),
+                                flag("COMPOSITE"), name("OFFSET"), flag("NODAL THICKNESS"), real("DENSITY")},
                                read_general_section}};
 const RegisterKeyword shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_transverse_shear}};
 const RegisterKeyword thickness{{"NODAL THICKNESS", Phase::surfaces, Place::model, {}, read_nodal_thickness}};
@@ -217,8 +230,9 @@ void check_nodal_thickness(Builder& builder) {
       if (section < 0 || !model.sections[section].shell.nodal_thickness) continue;
       const auto node = table.connectivity[corner];
       if (!model.nodes.thickness.empty() && model.nodes.thickness[node] > 0.0) continue;
-      return builder.diagnostics.error(model.sections[section].location, "SHELL SECTION",
-                                       fmt::format("node {} has no thickness; give it one under *NODAL THICKNESS", model.nodes.id[node]));
+      return builder.diagnostics.error(
+          model.sections[section].location, "SHELL SECTION",
+          fmt::format("node {} has no thickness; give it one under *NODAL THICKNESS", model.nodes.id[node]));
     }
 }
 
@@ -230,10 +244,11 @@ void finish_shells(Builder& builder) {
   if (opposed.empty()) return;
   const auto& [first, second] = opposed.front();
   const std::string others = opposed.size() > 1 ? fmt::format(" ({} more pairs like them)", opposed.size() - 1) : "";
-  builder.diagnostics.warning(builder.model.elements[second.table].location[second.row], "ELEMENT",
-                              fmt::format("the normals of shells {} and {} point to opposite sides of one smooth surface{}; "
-                                          "turn round the node order of one, or SPOS and SNEG change sides there",
-                                          builder.element_id(first), builder.element_id(second), others));
+  builder.diagnostics.warning(
+      builder.model.elements[second.table].location[second.row], "ELEMENT",
+      fmt::format("the normals of shells {} and {} point to opposite sides of one smooth surface{}; "
+                  "turn round the node order of one, or SPOS and SNEG change sides there",
+                  builder.element_id(first), builder.element_id(second), others));
 }
 
 }  // namespace balocco::deck

@@ -8,8 +8,12 @@ namespace {
 
 using Vector = Vector3<double>;
 
-double length(const Vector& v) { return std::sqrt(dot(v, v)); }
-Vector vector_of(const Point& p) { return {{p[0], p[1], p[2]}}; }
+double length(const Vector& v) {
+  return std::sqrt(dot(v, v));
+}
+Vector vector_of(const Point& p) {
+  return {{p[0], p[1], p[2]}};
+}
 
 /// The axis of an orientation that becomes local direction 1 once projected.
 Vector orientation_axis(const Orientation& orientation, const Vector& point) {
@@ -23,7 +27,8 @@ Vector orientation_axis(const Orientation& orientation, const Vector& point) {
 
 }  // namespace
 
-std::optional<SurfaceDirections> surface_directions(const Orientation* orientation, const Vector& point, const Vector& normal) {
+std::optional<SurfaceDirections> surface_directions(const Orientation* orientation, const Vector& point,
+                                                    const Vector& normal) {
   Vector axis{{1.0, 0.0, 0.0}};
   double angle = 0.0;
   if (orientation != nullptr) {

@@ -19,18 +19,20 @@ Matrix6 section_stiffness(const ShellStiffness& relative, double h) {
   return d;
 }
 
-std::array<double, 3> strain_of_layer(const ShellSection& section, const ShellLayer& layer, double h, const std::array<double, 6>& strain) {
+std::array<double, 3> strain_of_layer(const ShellSection& section, const ShellLayer& layer, double h,
+                                      const std::array<double, 6>& strain) {
   return layer_strain<double>(section.plies[layer.ply], layer.height * h, {strain[0], strain[1], strain[2]},
                               {strain[3], strain[4], strain[5]});
 }
 
 }  // namespace
 
-void shell_resultants(const ShellSection& section, double h, const std::array<double, 6>& strain, std::span<double> history,
-                      std::array<double, 6>& resultants, std::span<double> stiffness) {
+void shell_resultants(const ShellSection& section, double h, const std::array<double, 6>& strain,
+                      std::span<double> history, std::array<double, 6>& resultants, std::span<double> stiffness) {
   if (section.linear) {
     const Matrix6 d = section_stiffness(section.stiffness, h);
-    Eigen::Map<Eigen::Matrix<double, 6, 1>>(resultants.data()) = d * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(strain.data());
+    Eigen::Map<Eigen::Matrix<double, 6, 1>>(resultants.data()) =
+        d * Eigen::Map<const Eigen::Matrix<double, 6, 1>>(strain.data());
     if (!stiffness.empty()) Eigen::Map<Matrix6>(stiffness.data()) = d;
     return;
   }
@@ -40,8 +42,8 @@ void shell_resultants(const ShellSection& section, double h, const std::array<do
     const ShellPly& ply = section.plies[layer.ply];
     std::array<double, 3> stress;
     PlaneStiffness tangent;
-    ply.law->tangent(strain_of_layer(section, layer, h, strain), quasi_static, history.subspan(layer.history, ply.law->history_size()),
-                     stress, tangent);
+    ply.law->tangent(strain_of_layer(section, layer, h, strain), quasi_static,
+                     history.subspan(layer.history, ply.law->history_size()), stress, tangent);
     stress = stress_in_section(ply, stress);
     if (ply.turned) tangent = rotated_stiffness(tangent, std::atan2(ply.sine, ply.cosine));
     for (int i = 0; i < 3; ++i) {
@@ -57,7 +59,8 @@ void shell_resultants(const ShellSection& section, double h, const std::array<do
   if (!stiffness.empty()) Eigen::Map<Matrix6>(stiffness.data()) = section_stiffness(sum, h);
 }
 
-EnergyDensity shell_energy(const ShellSection& section, double h, const std::array<double, 6>& strain, std::span<const double> history) {
+EnergyDensity shell_energy(const ShellSection& section, double h, const std::array<double, 6>& strain,
+                           std::span<const double> history) {
   if (section.linear) {
     const Eigen::Map<const Eigen::Matrix<double, 6, 1>> e(strain.data());
     return {0.5 * e.dot(section_stiffness(section.stiffness, h) * e), 0.0, 0.0};
@@ -65,8 +68,8 @@ EnergyDensity shell_energy(const ShellSection& section, double h, const std::arr
   EnergyDensity sum;
   for (const ShellLayer& layer : section.layers) {
     const ShellPly& ply = section.plies[layer.ply];
-    const EnergyDensity density =
-        ply.law->energy_density(strain_of_layer(section, layer, h, strain), history.subspan(layer.history, ply.law->history_size()));
+    const EnergyDensity density = ply.law->energy_density(strain_of_layer(section, layer, h, strain),
+                                                          history.subspan(layer.history, ply.law->history_size()));
     sum.recoverable += layer.weight * h * density.recoverable;
     sum.plastic += layer.weight * h * density.plastic;
     sum.viscous += layer.weight * h * density.viscous;

@@ -15,8 +15,8 @@ namespace {
 
 /// A ply with what its quadratures need of it.
 struct PlyModuli {
-  PlaneStiffness stiffness;       // in the directions of the section
-  std::array<double, 3> shear;    // G11 G22 G12 of transverse shear, likewise
+  PlaneStiffness stiffness;     // in the directions of the section
+  std::array<double, 3> shear;  // G11 G22 G12 of transverse shear, likewise
   double density = 0.0, beta = 0.0;
 };
 
@@ -76,8 +76,8 @@ void add(const PlaneStiffness& stiffness, double factor, double height, double w
   }
 }
 
-/// Shear stiffness along direction `axis` from the energy of the shear stress that balances cylindrical bending: 5/6 G h of a
-/// homogeneous plate (Whitney, J. Appl. Mech. 40, 1973).
+/// Shear stiffness along direction `axis` from the energy of the shear stress that balances cylindrical bending: 5/6 G
+/// h of a homogeneous plate (Whitney, J. Appl. Mech. 40, 1973).
 double balanced_shear(const ShellSection& section, const std::vector<PlyModuli>& moduli, int axis) {
   double stretch = 0.0, first = 0.0, second = 0.0;
   for (std::size_t p = 0; p < moduli.size(); ++p) {
@@ -87,7 +87,8 @@ double balanced_shear(const ShellSection& section, const std::vector<PlyModuli>&
     second += q * (b * b * b - a * a * a) / 3.0;
   }
   const double neutral = first / stretch, rigidity = second - neutral * first;
-  double flow = 0.0, energy = 0.0;  // integral of q (z - neutral) from the bottom; twice the energy of a unit shear force
+  double flow = 0.0,
+         energy = 0.0;  // integral of q (z - neutral) from the bottom; twice the energy of a unit shear force
   for (std::size_t p = 0; p < moduli.size(); ++p) {
     const double q = moduli[p].stiffness[4 * axis], a = section.plies[p].bottom, b = section.plies[p].top;
     const auto flow_at = [&](double z) { return flow + q * ((z * z - a * a) / 2.0 - neutral * (z - a)); };
@@ -100,7 +101,8 @@ double balanced_shear(const ShellSection& section, const std::vector<PlyModuli>&
   return 1.0 / energy;
 }
 
-void add_layers(const Section& input, const std::vector<Ply>& plies, const std::vector<PlyModuli>& moduli, ShellSection& section) {
+void add_layers(const Section& input, const std::vector<Ply>& plies, const std::vector<PlyModuli>& moduli,
+                ShellSection& section) {
   double height = section.bottom, mass = 0.0;
   for (std::size_t p = 0; p < plies.size(); ++p) {
     const double share = plies[p].thickness / section.thickness;
@@ -108,7 +110,8 @@ void add_layers(const Section& input, const std::vector<Ply>& plies, const std::
     ply.bottom = height;
     ply.top = height + share;
     for (const auto& point : thickness_rule(plies[p].points, input.shell.gauss)) {
-      const ShellLayer layer{static_cast<int>(p), section.history_size, height + share * (0.5 + point.position), share * point.weight};
+      const ShellLayer layer{static_cast<int>(p), section.history_size, height + share * (0.5 + point.position),
+                             share * point.weight};
       section.history_size += ply.law->history_size();
       section.layers.push_back(layer);
       add(moduli[p].stiffness, 1.0, layer.height, layer.weight, section.stiffness);
@@ -132,7 +135,8 @@ void set_general_stiffness(const Section& input, const Reader& reader, ShellSect
   for (int column = 0; column < 6; ++column)
     for (int row = 0; row <= column; ++row) d(row, column) = d(column, row) = input.shell.stiffness[k++];
   if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(d).eigenvalues().minCoeff() > 0.0))
-    reader.fail("its stiffness is not positive definite; check the order of the 21 constants: D11, D12, D22, D13, ... D66");
+    reader.fail(
+        "its stiffness is not positive definite; check the order of the 21 constants: D11, D12, D22, D13, ... D66");
   const double h = section.thickness;
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < 3; ++j) {
@@ -184,7 +188,8 @@ ShellSection shell_section(const Model& model, const Section& input) {
   section.top = 0.5 - input.shell.offset;
   section.thickness = input.thickness;
   section.linear = true;
-  if (!(section.thickness > 0.0)) reader.fail(fmt::format("its thickness is {}; it must be positive", section.thickness));
+  if (!(section.thickness > 0.0))
+    reader.fail(fmt::format("its thickness is {}; it must be positive", section.thickness));
   if (!input.shell.stiffness.empty()) {
     set_general_stiffness(input, reader, section);
   } else {
@@ -197,7 +202,9 @@ ShellSection shell_section(const Model& model, const Section& input) {
   }
   if (input.shell.mass_per_area > 0.0) {
     const double mass = section.density + input.shell.mass_per_area / section.thickness;
-    section.rotary = (section.rotary * section.density + (1.0 / 12.0 + input.shell.offset * input.shell.offset) * input.shell.mass_per_area / section.thickness) / mass;
+    section.rotary = (section.rotary * section.density + (1.0 / 12.0 + input.shell.offset * input.shell.offset) *
+                                                             input.shell.mass_per_area / section.thickness) /
+                     mass;
     section.density = mass;
   }
   if (!input.shell.transverse_shear.empty())

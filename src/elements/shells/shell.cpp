@@ -25,7 +25,7 @@ struct ShellGroup<corners, points>::Block {
   ShellKernel<Pack, corners> kernel[block_packs];
   ShellModes<Pack, corners> strain[block_packs], stress[block_packs];
   SurfaceStrain<Pack> here[block_packs], resultants[block_packs];  // of the point at hand
-  Pack stiffening[block_packs];  // largest tangent modulus over that at rest
+  Pack stiffening[block_packs];                                    // largest tangent modulus over that at rest
   Pack tension[block_packs], dissipated[block_packs];
   PointBatch<PointKind::plane> batch;
 };
@@ -46,11 +46,14 @@ ShellGroup<corners, points>::ShellGroup(const GroupInput& input)
     thickness.fill(section_.thickness);
     if (section_.nodal_thickness)
       for (int i = 0; i < corners; ++i)
-        thickness[i] = input.model.nodes.thickness[elements.connectivity[static_cast<std::size_t>(rows_[element]) * corners + i]];
+        thickness[i] =
+            input.model.nodes.thickness[elements.connectivity[static_cast<std::size_t>(rows_[element]) * corners + i]];
     double* const data = record(element);
-    fill_shell_reference<corners, points>(geometry, section_, thickness, {section.hourglass, section.hourglass_scale}, data);
+    fill_shell_reference<corners, points>(geometry, section_, thickness, {section.hourglass, section.hourglass_scale},
+                                          data);
 
-    const std::span<double> mass(nodal_mass_.data() + element * corners, corners), inertia(nodal_inertia_.data() + element * corners, corners);
+    const std::span<double> mass(nodal_mass_.data() + element * corners, corners),
+        inertia(nodal_inertia_.data() + element * corners, corners);
     for (int i = 0; i < corners; ++i) {
       mass[i] = section_.density * thickness[i] * geometry.nodal_area[i];
       inertia[i] = mass[i] * scaled_rotary_inertia_per_mass(section_, thickness[i], geometry.area);
@@ -68,23 +71,27 @@ void ShellGroup<corners, points>::add_linear_point(int point, Block& block) cons
     const double* const data = record(block.first + pack * pack_size);
     const Pack h = reference_value<Pack>(data, Record::point + point * Record::point_size + 1);
     const auto& e = block.here[pack].membrane;
-    const std::array<Pack, 3> k{h * block.here[pack].curvature[0], h * block.here[pack].curvature[1], h * block.here[pack].curvature[2]};
+    const std::array<Pack, 3> k{h * block.here[pack].curvature[0], h * block.here[pack].curvature[1],
+                                h * block.here[pack].curvature[2]};
     for (int i = 0; i < 3; ++i) {
-      block.resultants[pack].membrane[i] = h * (a[3 * i] * e[0] + a[3 * i + 1] * e[1] + a[3 * i + 2] * e[2] + b[3 * i] * k[0] +
-                                                b[3 * i + 1] * k[1] + b[3 * i + 2] * k[2]);
-      block.resultants[pack].curvature[i] = h * h * (b[3 * i] * e[0] + b[3 * i + 1] * e[1] + b[3 * i + 2] * e[2] +
-                                                     d[3 * i] * k[0] + d[3 * i + 1] * k[1] + d[3 * i + 2] * k[2]);
+      block.resultants[pack].membrane[i] = h * (a[3 * i] * e[0] + a[3 * i + 1] * e[1] + a[3 * i + 2] * e[2] +
+                                                b[3 * i] * k[0] + b[3 * i + 1] * k[1] + b[3 * i + 2] * k[2]);
+      block.resultants[pack].curvature[i] = h * h *
+                                            (b[3 * i] * e[0] + b[3 * i + 1] * e[1] + b[3 * i + 2] * e[2] +
+                                             d[3 * i] * k[0] + d[3 * i + 1] * k[1] + d[3 * i + 2] * k[2]);
     }
     const auto& n = block.resultants[pack];
-    const Pack greatest = maximum(maximum(n.membrane[0], n.membrane[1]), Pack(0.0)) / h +
-                          6.0 * maximum(maximum(n.curvature[0], -n.curvature[0]), maximum(n.curvature[1], -n.curvature[1])) / (h * h);
+    const Pack greatest =
+        maximum(maximum(n.membrane[0], n.membrane[1]), Pack(0.0)) / h +
+        6.0 * maximum(maximum(n.curvature[0], -n.curvature[0]), maximum(n.curvature[1], -n.curvature[1])) / (h * h);
     block.tension[pack] = maximum(block.tension[pack], greatest);
   }
 }
 
 /// The layers of a point of the surface, a batch of elements for each.
 template <int corners, int points>
-void ShellGroup<corners, points>::add_layers(int point, Block& block, double increment, std::span<double> history) const {
+void ShellGroup<corners, points>::add_layers(int point, Block& block, double increment,
+                                             std::span<double> history) const {
   auto& batch = block.batch;
   batch.count = block.packs * pack_size;
   batch.history_stride = padded_size_;
@@ -93,17 +100,22 @@ void ShellGroup<corners, points>::add_layers(int point, Block& block, double inc
   for (const ShellLayer& layer : section_.layers) {
     const ShellPly& ply = section_.plies[layer.ply];
     for (int pack = 0; pack < block.packs; ++pack) {
-      const Pack h = reference_value<Pack>(record(block.first + pack * pack_size), Record::point + point * Record::point_size + 1);
-      const auto strain = layer_strain<Pack>(ply, layer.height * h, block.here[pack].membrane, block.here[pack].curvature);
+      const Pack h =
+          reference_value<Pack>(record(block.first + pack * pack_size), Record::point + point * Record::point_size + 1);
+      const auto strain =
+          layer_strain<Pack>(ply, layer.height * h, block.here[pack].membrane, block.here[pack].curvature);
       for (int i = 0; i < 3; ++i) store(strain[i], batch.strain[i] + pack * pack_size);
     }
-    batch.history = history.data() + (point * section_.history_size + layer.history) * std::ptrdiff_t{padded_size_} + block.first;
+    batch.history =
+        history.data() + (point * section_.history_size + layer.history) * std::ptrdiff_t{padded_size_} + block.first;
     ply.law->stress(batch);
     const double softness = 2.0 / ply.initial_modulus;
     for (int pack = 0; pack < block.packs; ++pack) {
-      const Pack h = reference_value<Pack>(record(block.first + pack * pack_size), Record::point + point * Record::point_size + 1);
+      const Pack h =
+          reference_value<Pack>(record(block.first + pack * pack_size), Record::point + point * Record::point_size + 1);
       const int slot = pack * pack_size;
-      const std::array<Pack, 3> own{load(batch.stress[0] + slot), load(batch.stress[1] + slot), load(batch.stress[2] + slot)};
+      const std::array<Pack, 3> own{load(batch.stress[0] + slot), load(batch.stress[1] + slot),
+                                    load(batch.stress[2] + slot)};
       const auto stress = stress_in_section(ply, own);
       const Pack weight = layer.weight * h, moment = weight * (layer.height * h);
       for (int i = 0; i < 3; ++i) {
@@ -117,10 +129,11 @@ void ShellGroup<corners, points>::add_layers(int point, Block& block, double inc
   }
 }
 
-/// Linear bulk viscosity of the surface and stiffness-proportional damping, of the mean strains; updates the history of their rates.
-/// The rate of dilatation is that of ln(area), by the mean-value quotient 2 (J - J0) / (J + J0).
+/// Linear bulk viscosity of the surface and stiffness-proportional damping, of the mean strains; updates the history of
+/// their rates. The rate of dilatation is that of ln(area), by the mean-value quotient 2 (J - J0) / (J + J0).
 template <int corners, int points>
-void ShellGroup<corners, points>::add_viscosity(Block& block, int pack, const ExplicitCycle& cycle, std::span<double> history) const {
+void ShellGroup<corners, points>::add_viscosity(Block& block, int pack, const ExplicitCycle& cycle,
+                                                std::span<double> history) const {
   const std::int32_t element = block.first + pack * pack_size;
   const double* const data = record(element);
   const auto row = [&](int component) { return history.data() + component * std::ptrdiff_t{padded_size_} + element; };
@@ -167,8 +180,9 @@ void ShellGroup<corners, points>::add_viscosity(Block& block, int pack, const Ex
   block.dissipated[pack] = cycle.increment * power;
 }
 
-/// 2 / omega (sqrt(1 + xi^2) - xi) with the largest frequency at rest, exact, grown by what has changed since: all strains are
-/// products of vectors that stretch at most as much as the surface does, and initial stress adds its own stiffness.
+/// 2 / omega (sqrt(1 + xi^2) - xi) with the largest frequency at rest, exact, grown by what has changed since: all
+/// strains are products of vectors that stretch at most as much as the surface does, and initial stress adds its own
+/// stiffness.
 template <int corners, int points>
 Pack ShellGroup<corners, points>::stable_increment(const Block& block, int pack, const ExplicitCycle& cycle) const {
   const double* const data = record(block.first + pack * pack_size);
@@ -178,7 +192,8 @@ Pack ShellGroup<corners, points>::stable_increment(const Block& block, int pack,
   const Pack half = 0.5 * (c11 + c22), difference = 0.5 * (c11 - c22);
   const Pack stretch = maximum(half + square_root(difference * difference + c12 * c12), Pack(1.0));
   const Pack eigenvalue = reference_value<Pack>(data, Record::eigenvalue);
-  const Pack stiffness = stretch * (block.stiffening[pack] * eigenvalue) + block.tension[pack] * reference_value<Pack>(data, Record::tension);
+  const Pack stiffness = stretch * (block.stiffening[pack] * eigenvalue) +
+                         block.tension[pack] * reference_value<Pack>(data, Record::tension);
   const Pack least = maximum(c11 * c22 - c12 * c12, Pack(1e-300));
   const Pack viscous = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Record::viscosity) *
                            reference_value<Pack>(data, Record::dilatation) * (2.0 * half / least) +
@@ -189,7 +204,8 @@ Pack ShellGroup<corners, points>::stable_increment(const Block& block, int pack,
 
 /// Hands a block's forces to its nodes, books the dissipation and finds the governing element.
 template <int corners, int points>
-void ShellGroup<corners, points>::finish(Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const {
+void ShellGroup<corners, points>::finish(Block& block, const ExplicitCycle& cycle, std::span<double> history,
+                                         StableIncrement& stable) const {
   double* const dissipation = history.data() + dissipation_row() * std::ptrdiff_t{padded_size_};
   for (int pack = 0; pack < block.packs; ++pack) {
     const std::int32_t element = block.first + pack * pack_size;
@@ -224,7 +240,8 @@ StableIncrement ShellGroup<corners, points>::add_forces(std::span<const PackRun>
           block.here[pack] = strain_at<Pack>(record(block.first + pack * pack_size), point, block.strain[pack]);
         section_.linear ? add_linear_point(point, block) : add_layers(point, block, cycle.increment, history);
         for (int pack = 0; pack < block.packs; ++pack)
-          add_resultants<Pack>(record(block.first + pack * pack_size), point, block.resultants[pack], block.stress[pack]);
+          add_resultants<Pack>(record(block.first + pack * pack_size), point, block.resultants[pack],
+                               block.stress[pack]);
       }
       finish(block, cycle, history, stable);
     }
@@ -277,7 +294,8 @@ std::unique_ptr<ElementGroup> make_shell(const GroupInput& input) {
   return std::make_unique<ShellGroup<corners, points>>(input);
 }
 
-ElementType quadrilateral(const char* name, int points, double cost, std::unique_ptr<ElementGroup> (*make)(const GroupInput&)) {
+ElementType quadrilateral(const char* name, int points, double cost,
+                          std::unique_ptr<ElementGroup> (*make)(const GroupInput&)) {
   return {.name = name,
           .shape = Shape::quadrilateral,
           .nodes = 4,

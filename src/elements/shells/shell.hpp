@@ -1,5 +1,5 @@
-// Shells S4 (2 x 2 points), S4R (one point, the rest of its fields as physical hourglass control) and S3R: finite membrane strain
-// and rotation, transverse shear, sections integrated through the thickness.
+// Shells S4 (2 x 2 points), S4R (one point, the rest of its fields as physical hourglass control) and S3R: finite
+// membrane strain and rotation, transverse shear, sections integrated through the thickness.
 #pragma once
 
 #include <vector>
@@ -12,9 +12,9 @@
 
 namespace balocco {
 
-/// History of an element: the section's (point by point, layer by layer), the area ratio, the energy dissipated by viscosity, and
-/// with stiffness-proportional damping the mean strains E11 E22 2E12 K11 K22 2K12. Integration points are counted layer by layer
-/// from SNEG to SPOS at each point of the surface in turn.
+/// History of an element: the section's (point by point, layer by layer), the area ratio, the energy dissipated by
+/// viscosity, and with stiffness-proportional damping the mean strains E11 E22 2E12 K11 K22 2K12. Integration points
+/// are counted layer by layer from SNEG to SPOS at each point of the surface in turn.
 template <int corners, int points>
 class ShellGroup final : public ElementGroup {
  public:
@@ -28,7 +28,8 @@ class ShellGroup final : public ElementGroup {
                              std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
-  ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;
+  ElementEnergies energies(std::int32_t element, const NodalMotion& motion,
+                           std::span<const double> history) const override;
   int point_components(std::string_view variable) const override;
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override;
@@ -59,14 +60,16 @@ class ShellGroup final : public ElementGroup {
   int strain_row() const { return dissipation_row() + 1; }
   bool damped() const { return section_.damping_beta > 0.0; }
   double* record(std::int32_t element) {
-    return record_.data() + static_cast<std::size_t>(element / pack_size) * (Record::size * pack_size) + element % pack_size;
+    return record_.data() + static_cast<std::size_t>(element / pack_size) * (Record::size * pack_size) +
+           element % pack_size;
   }
   const double* record(std::int32_t element) const { return const_cast<ShellGroup*>(this)->record(element); }
 
   template <class T>
   static SurfaceStrain<T> strain_at(const double* record, int point, const ShellModes<T, corners>& strain);
   template <class T>
-  static void add_resultants(const double* record, int point, const SurfaceStrain<T>& resultants, ShellModes<T, corners>& stress);
+  static void add_resultants(const double* record, int point, const SurfaceStrain<T>& resultants,
+                             ShellModes<T, corners>& stress);
   template <class T>
   static void add_hourglass(const double* record, const ShellModes<T, corners>& strain, ShellModes<T, corners>& stress);
 
@@ -89,7 +92,7 @@ class ShellGroup final : public ElementGroup {
   void finish(Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
 
   ShellSection section_;
-  AlignedVector<double> record_;             // Record::size packs per pack of elements
+  AlignedVector<double> record_;                    // Record::size packs per pack of elements
   std::vector<double> nodal_mass_, nodal_inertia_;  // of each corner of each element
 };
 
@@ -97,7 +100,8 @@ class ShellGroup final : public ElementGroup {
 // forces of a point do the same work on both.
 template <int corners, int points>
 template <class T>
-auto ShellGroup<corners, points>::strain_at(const double* record, int point, const ShellModes<T, corners>& strain) -> SurfaceStrain<T> {
+auto ShellGroup<corners, points>::strain_at(const double* record, int point, const ShellModes<T, corners>& strain)
+    -> SurfaceStrain<T> {
   SurfaceStrain<T> here{strain.membrane, strain.curvature};
   if constexpr (points > 1)
     for (int i = 0; i < 3; ++i)

@@ -15,10 +15,15 @@ namespace {
 
 using Vector = Vector3<double>;
 
-constexpr std::array<double, 4> corner_xi{-1.0, 1.0, 1.0, -1.0}, corner_eta{-1.0, -1.0, 1.0, 1.0}, hourglass{1.0, -1.0, 1.0, -1.0};
+constexpr std::array<double, 4> corner_xi{-1.0, 1.0, 1.0, -1.0}, corner_eta{-1.0, -1.0, 1.0, 1.0},
+    hourglass{1.0, -1.0, 1.0, -1.0};
 
-double length(const Vector& v) { return std::sqrt(dot(v, v)); }
-Vector vector_of(const Point& p) { return {{p[0], p[1], p[2]}}; }
+double length(const Vector& v) {
+  return std::sqrt(dot(v, v));
+}
+Vector vector_of(const Point& p) {
+  return {{p[0], p[1], p[2]}};
+}
 
 struct Element {
   const Model& model;
@@ -51,7 +56,9 @@ Shape quadrilateral_shape(double xi, double eta) {
   return shape;
 }
 
-Shape triangle_shape(double r, double s) { return {{1.0 - r - s, r, s, 0.0}, {-1.0, 1.0, 0.0, 0.0}, {-1.0, 0.0, 1.0, 0.0}}; }
+Shape triangle_shape(double r, double s) {
+  return {{1.0 - r - s, r, s, 0.0}, {-1.0, 1.0, 0.0, 0.0}, {-1.0, 0.0, 1.0, 0.0}};
+}
 
 /// Directions at the middle, the corners in them, and the directors.
 Flat flatten(const Element& element, const Section& section, ShellGeometry& geometry) {
@@ -86,12 +93,14 @@ Flat flatten(const Element& element, const Section& section, ShellGeometry& geom
     geometry.director[i] = geometry.normal;
     if (!table.corner_normal.empty()) geometry.director[i] = vector_of(table.corner_normal[first + i]);
     if (!(dot(geometry.director[i], geometry.normal) > 0.1))
-      element.fail("has a corner whose normal lies in its surface or points to its other side; correct *NORMAL or the nodes");
+      element.fail(
+          "has a corner whose normal lies in its surface or points to its other side; correct *NORMAL or the nodes");
   }
   return flat;
 }
 
-ShellPoint point_at(const Element& element, const Flat& flat, const Shape& shape, std::array<double, 2> natural, double weight) {
+ShellPoint point_at(const Element& element, const Flat& flat, const Shape& shape, std::array<double, 2> natural,
+                    double weight) {
   double j11 = 0.0, j12 = 0.0, j21 = 0.0, j22 = 0.0;
   for (int i = 0; i < 4; ++i) {
     j11 += shape.by_xi[i] * flat.x[i];
@@ -101,7 +110,11 @@ ShellPoint point_at(const Element& element, const Flat& flat, const Shape& shape
   }
   const double determinant = j11 * j22 - j12 * j21;
   if (!(determinant > 0.0)) element.fail("is folded or has an inner angle beyond 180 degrees; correct its nodes");
-  return {weight * determinant, natural, {j22 / determinant, -j12 / determinant, -j21 / determinant, j11 / determinant}, {}, shape.value};
+  return {weight * determinant,
+          natural,
+          {j22 / determinant, -j12 / determinant, -j21 / determinant, j11 / determinant},
+          {},
+          shape.value};
 }
 
 /// dN_I / d(direction) at a point.
@@ -130,7 +143,8 @@ void add_points(const Element& element, const Flat& flat, ShellGeometry& geometr
     const std::array<double, 2> natural =
         geometry.corners == 4 ? std::array{corner_xi[q] / std::sqrt(3.0), corner_eta[q] / std::sqrt(3.0)}
                               : std::array{q == 1 ? 2.0 / 3.0 : 1.0 / 6.0, q == 2 ? 2.0 / 3.0 : 1.0 / 6.0};
-    shape[q] = geometry.corners == 4 ? quadrilateral_shape(natural[0], natural[1]) : triangle_shape(natural[0], natural[1]);
+    shape[q] =
+        geometry.corners == 4 ? quadrilateral_shape(natural[0], natural[1]) : triangle_shape(natural[0], natural[1]);
     geometry.point[q] = point_at(element, flat, shape[q], natural, geometry.corners == 4 ? 1.0 : 1.0 / 6.0);
     geometry.area += geometry.point[q].area;
   }

@@ -1,5 +1,5 @@
-// Reference geometry of one shell element, seen along its mean normal: local directions, gradients, the hourglass mode, and the
-// points at which its fields are integrated.
+// Reference geometry of one shell element, seen along its mean normal: local directions, gradients, the hourglass mode,
+// and the points at which its fields are integrated.
 #pragma once
 
 #include <array>
@@ -11,19 +11,19 @@ namespace balocco {
 
 /// A point of the flattened element.
 struct ShellPoint {
-  double area = 0.0;                             // weight times area element
-  std::array<double, 2> natural{};               // xi, eta; triangles: r, s
-  std::array<double, 4> natural_gradient{};      // d xi / d 1, d eta / d 1, d xi / d 2, d eta / d 2
-  std::array<double, 2> hourglass_gradient{};    // quadrilaterals: g in B_q = B + g gamma^T
-  std::array<double, 4> shape{};                 // of the corners
+  double area = 0.0;                           // weight times area element
+  std::array<double, 2> natural{};             // xi, eta; triangles: r, s
+  std::array<double, 4> natural_gradient{};    // d xi / d 1, d eta / d 1, d xi / d 2, d eta / d 2
+  std::array<double, 2> hourglass_gradient{};  // quadrilaterals: g in B_q = B + g gamma^T
+  std::array<double, 4> shape{};               // of the corners
 };
 
 struct ShellGeometry {
-  int corners = 0, points = 0;                         // quadrilaterals: 2 x 2 Gauss points, triangles: 3
-  Vector3<double> direction1, direction2, normal;      // orthonormal
-  std::array<Vector3<double>, 4> edge, director;       // X_I - X_0; unit normals of the smooth surface at the corners
-  std::array<double, 4> gradient1{}, gradient2{};      // mean of dN_I / d(direction), 1 / length
-  std::array<double, 4> gamma{};                       // hourglass mode without its affine part
+  int corners = 0, points = 0;                     // quadrilaterals: 2 x 2 Gauss points, triangles: 3
+  Vector3<double> direction1, direction2, normal;  // orthonormal
+  std::array<Vector3<double>, 4> edge, director;   // X_I - X_0; unit normals of the smooth surface at the corners
+  std::array<double, 4> gradient1{}, gradient2{};  // mean of dN_I / d(direction), 1 / length
+  std::array<double, 4> gamma{};                   // hourglass mode without its affine part
   std::array<double, 4> nodal_area{};
   std::array<ShellPoint, 4> point;
   double area = 0.0;
@@ -32,8 +32,8 @@ struct ShellGeometry {
   double axis_angle = 0.0;  // from direction1 to the element's own first axis
 };
 
-/// @throws InputError if the element has no area, is folded, a corner's normal lies in its surface, or the section's orientation
-/// gives no direction there.
+/// @throws InputError if the element has no area, is folded, a corner's normal lies in its surface, or the section's
+/// orientation gives no direction there.
 ShellGeometry shell_geometry(const Model& model, ElementRef element, const Section& section);
 
 }  // namespace balocco

@@ -1,14 +1,17 @@
 // Kinematics and nodal forces of shells, one text for T = double, Pack (explicit loop) and Dual (exact tangent).
 //
-// A geometrically exact shell with one director a corner, d_I = R_I D_I (Simo & Fox, Comp. Meth. Appl. Mech. Eng. 72, 1989), whose
-// strains are as many as its modes of deformation, freedoms less rigid motions: 18 for quadrilaterals, 12 for triangles.
-//   membrane   E_ab = (F_a . F_b - 1) / 2 of the mean tangents F_a = sum B_aI x_I, with the mean of (q . q) (g (x) g) / 2
-//   curvature  K_ab = sym(F_a . D_b) - reference, D_a = sum B_aI d_I;  the strain of a layer is E + zeta K
-//   modes      s_a = F_a . q and t_a = F_a . p + D_a . q, in-plane bending and bending of the quadrilateral's linear part:
+// A geometrically exact shell with one director a corner, d_I = R_I D_I (Simo & Fox, Comp. Meth. Appl. Mech. Eng. 72,
+// 1989), whose strains are as many as its modes of deformation, freedoms less rigid motions: 18 for quadrilaterals, 12
+// for triangles.
+//   membrane   E_ab = (F_a . F_b - 1) / 2 of the mean tangents F_a = sum B_aI x_I, with the mean of (q . q) (g (x) g) /
+//   2 curvature  K_ab = sym(F_a . D_b) - reference, D_a = sum B_aI d_I;  the strain of a layer is E + zeta K modes s_a
+//   = F_a . q and t_a = F_a . p + D_a . q, in-plane bending and bending of the quadrilateral's linear part:
 //              q = sum gamma_I x_I, p = sum gamma_I d_I, nothing for affine motions (Flanagan & Belytschko 1981)
-//   shear      c_i = e_i . (d_i + d_j) - reference along each edge e_i = x_j - x_i: the tying points of MITC4 (Dvorkin & Bathe,
+//   shear      c_i = e_i . (d_i + d_j) - reference along each edge e_i = x_j - x_i: the tying points of MITC4 (Dvorkin
+//   & Bathe,
 //              Eng. Comput. 1, 1984) and MITC3 (Lee & Bathe, Comput. Struct. 82, 2004)
-//   drill      w_I = (F_1 . R_I E_2 - F_2 . R_I E_1) / 2, rotation of the node beside the spin of the surface (Hughes & Brezzi 1989)
+//   drill      w_I = (F_1 . R_I E_2 - F_2 . R_I E_1) / 2, rotation of the node beside the spin of the surface (Hughes &
+//   Brezzi 1989)
 // All are products of vectors that turn with the element: rigid motions strain nothing. Nodes enter as edges x_I - x_0.
 #pragma once
 
@@ -27,16 +30,17 @@ struct ShellLayout {
   static constexpr bool quadrilateral = corners == 4;
   static constexpr int edges = corners - 1;
   static constexpr int modes = quadrilateral ? 2 : 0;
-  static constexpr int gradient = 0;                                // along direction 1, then 2, of corners 1..
-  static constexpr int gamma = gradient + 2 * edges;                // quadrilaterals: of corners 1..
-  static constexpr int mean_gg = gamma + (quadrilateral ? 3 : 0);   // quadrilaterals: 11, 22, 12, then warp^2
+  static constexpr int gradient = 0;                               // along direction 1, then 2, of corners 1..
+  static constexpr int gamma = gradient + 2 * edges;               // quadrilaterals: of corners 1..
+  static constexpr int mean_gg = gamma + (quadrilateral ? 3 : 0);  // quadrilaterals: 11, 22, 12, then warp^2
   static constexpr int director = mean_gg + (quadrilateral ? 4 : 0);
-  static constexpr int axes = director + 3 * corners;               // E_1, E_2
-  static constexpr int curvature = axes + 6;                        // 11, 22, 2x12
+  static constexpr int axes = director + 3 * corners;  // E_1, E_2
+  static constexpr int curvature = axes + 6;           // 11, 22, 2x12
   static constexpr int bending_mode = curvature + 3;
   static constexpr int shear = bending_mode + modes;
-  static constexpr int shear_stiffness = shear + corners;           // upper triangle, row by row
-  static constexpr int drill_stiffness = shear_stiffness + corners * (corners + 1) / 2;  // of the mean, of what differs from it
+  static constexpr int shear_stiffness = shear + corners;  // upper triangle, row by row
+  static constexpr int drill_stiffness =
+      shear_stiffness + corners * (corners + 1) / 2;  // of the mean, of what differs from it
   static constexpr int size = drill_stiffness + 2;
 };
 
@@ -91,7 +95,8 @@ class ShellKernel {
     Modes strain;
     strain.membrane = {0.5 * (dot(tangent1_, tangent1_) - 1.0), 0.5 * (dot(tangent2_, tangent2_) - 1.0),
                        dot(tangent1_, tangent2_)};
-    strain.curvature = {dot(tangent1_, bend1_) - value(Layout::curvature), dot(tangent2_, bend2_) - value(Layout::curvature + 1),
+    strain.curvature = {dot(tangent1_, bend1_) - value(Layout::curvature),
+                        dot(tangent2_, bend2_) - value(Layout::curvature + 1),
                         dot(tangent1_, bend2_) + dot(tangent2_, bend1_) - value(Layout::curvature + 2)};
     if constexpr (Layout::quadrilateral) {
       const T growth = dot(twist_, twist_) - value(Layout::mean_gg + 3);
@@ -115,7 +120,8 @@ class ShellKernel {
     for (int i = 1; i < corners; ++i) mean = mean + strain.drill[i];
     const T pull = (value(Layout::drill_stiffness) - value(Layout::drill_stiffness + 1)) * ((1.0 / corners) * mean);
     for (int i = 0; i < corners; ++i) {
-      for (int j = 0; j < corners; ++j) stress.shear[i] = stress.shear[i] + value(shear_stiffness(i, j)) * strain.shear[j];
+      for (int j = 0; j < corners; ++j)
+        stress.shear[i] = stress.shear[i] + value(shear_stiffness(i, j)) * strain.shear[j];
       stress.drill[i] = stress.drill[i] + pull + value(Layout::drill_stiffness + 1) * strain.drill[i];
     }
   }
@@ -124,14 +130,17 @@ class ShellKernel {
   void add_forces(const Modes& stress, Forces& nodal) const {
     const auto& n = stress.membrane;
     const auto& m = stress.curvature;
-    Vector3<T> on_tangent1 = scaled(n[0], tangent1_) + scaled(n[2], tangent2_) + scaled(m[0], bend1_) + scaled(m[2], bend2_);
-    Vector3<T> on_tangent2 = scaled(n[2], tangent1_) + scaled(n[1], tangent2_) + scaled(m[2], bend1_) + scaled(m[1], bend2_);
+    Vector3<T> on_tangent1 =
+        scaled(n[0], tangent1_) + scaled(n[2], tangent2_) + scaled(m[0], bend1_) + scaled(m[2], bend2_);
+    Vector3<T> on_tangent2 =
+        scaled(n[2], tangent1_) + scaled(n[1], tangent2_) + scaled(m[2], bend1_) + scaled(m[1], bend2_);
     Vector3<T> on_bend1 = scaled(m[0], tangent1_) + scaled(m[2], tangent2_);
     Vector3<T> on_bend2 = scaled(m[2], tangent1_) + scaled(m[1], tangent2_);
     Vector3<T> on_twist, on_turn;
     if constexpr (Layout::quadrilateral) {
       const auto &s = stress.membrane_mode, &t = stress.bending_mode;
-      const T mean = value(Layout::mean_gg) * n[0] + value(Layout::mean_gg + 1) * n[1] + 2.0 * (value(Layout::mean_gg + 2) * n[2]);
+      const T mean =
+          value(Layout::mean_gg) * n[0] + value(Layout::mean_gg + 1) * n[1] + 2.0 * (value(Layout::mean_gg + 2) * n[2]);
       on_tangent1 = on_tangent1 + scaled(s[0], twist_) + scaled(t[0], turn_);
       on_tangent2 = on_tangent2 + scaled(s[1], twist_) + scaled(t[1], turn_);
       on_bend1 = on_bend1 + scaled(t[0], twist_);

@@ -23,7 +23,8 @@ struct Corner {
   Vector normal;  // of the element there
 };
 
-/// A side of an element, from the node with the smaller row to the other; `forward`: the element runs along it that way.
+/// A side of an element, from the node with the smaller row to the other; `forward`: the element runs along it that
+/// way.
 struct Side {
   std::int32_t low, high;
   bool forward;
@@ -31,7 +32,9 @@ struct Side {
   Vector normal;
 };
 
-Vector vector_of(const Point& p) { return {{p[0], p[1], p[2]}}; }
+Vector vector_of(const Point& p) {
+  return {{p[0], p[1], p[2]}};
+}
 Vector unit(const Vector& v) {
   const double size = std::sqrt(dot(v, v));
   return size > 0.0 ? (1.0 / size) * v : v;
@@ -52,12 +55,14 @@ void collect(const Model& model, std::int32_t table, std::vector<Corner>& corner
   }
 }
 
-/// Gives the corners of one node the means of their groups: a corner joins the first group all of whose normals are near its own.
+/// Gives the corners of one node the means of their groups: a corner joins the first group all of whose normals are
+/// near its own.
 void average(std::span<const Corner> corners, std::vector<ElementTable>& tables) {
   std::vector<std::vector<const Corner*>> groups;
   for (const Corner& corner : corners) {
     const auto near = [&](const Corner* other) { return dot(corner.normal, other->normal) >= smooth_cosine; };
-    const auto group = std::ranges::find_if(groups, [&](const auto& members) { return std::ranges::all_of(members, near); });
+    const auto group =
+        std::ranges::find_if(groups, [&](const auto& members) { return std::ranges::all_of(members, near); });
     if (group != groups.end())
       group->push_back(&corner);
     else
@@ -69,7 +74,8 @@ void average(std::span<const Corner> corners, std::vector<ElementTable>& tables)
     const Vector mean = unit(sum);
     for (const Corner* corner : group) {
       ElementTable& table = tables[corner->element.table];
-      table.corner_normal[static_cast<std::size_t>(corner->element.row) * table.type->nodes + corner->corner] = {mean[0], mean[1], mean[2]};
+      table.corner_normal[static_cast<std::size_t>(corner->element.row) * table.type->nodes + corner->corner] = {
+          mean[0], mean[1], mean[2]};
     }
   }
 }
@@ -81,7 +87,8 @@ std::vector<OpposedShells> opposed(std::vector<Side>& sides) {
     while (end < sides.size() && sides[end].low == sides[begin].low && sides[end].high == sides[begin].high) ++end;
     if (end - begin != 2) continue;  // an outer edge or a junction
     const Side &first = sides[begin], &second = sides[begin + 1];
-    if (first.forward == second.forward && dot(first.normal, second.normal) < -0.5) result.push_back({first.element, second.element});
+    if (first.forward == second.forward && dot(first.normal, second.normal) < -0.5)
+      result.push_back({first.element, second.element});
   }
   return result;
 }
@@ -104,7 +111,8 @@ std::vector<OpposedShells> set_corner_normals(Model& model, const GivenNormals& 
   }
   for (const Corner& corner : corners) {
     ElementTable& table = model.elements[corner.element.table];
-    Point& normal = table.corner_normal[static_cast<std::size_t>(corner.element.row) * table.type->nodes + corner.corner];
+    Point& normal =
+        table.corner_normal[static_cast<std::size_t>(corner.element.row) * table.type->nodes + corner.corner];
     const auto at_corner = given.at_corner.find({corner.element, corner.node});
     const auto at_node = given.at_node.find(corner.node);
     if (at_corner != given.at_corner.end())

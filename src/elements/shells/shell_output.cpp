@@ -26,11 +26,14 @@ int layer_components(const ShellSection& section, std::string_view variable) {
   if (section.layers.empty()) return 0;
   if (variable == "S" || variable == "LE") return 6;
   if (variable == "MISES" || variable == "SENER") return 1;
-  return std::ranges::any_of(section.plies, [&](const ShellPly& ply) { return history_scalar(*ply.law, variable) >= 0; }) ? 1 : 0;
+  return std::ranges::any_of(section.plies,
+                             [&](const ShellPly& ply) { return history_scalar(*ply.law, variable) >= 0; })
+             ? 1
+             : 0;
 }
 
-/// Components of what belongs to the section as a whole: forces SF (11 22 12 13 23) and moments SM (11 22 12) a unit length, strains
-/// SE and curvatures SK of the surface of the nodes likewise, thickness STH.
+/// Components of what belongs to the section as a whole: forces SF (11 22 12 13 23) and moments SM (11 22 12) a unit
+/// length, strains SE and curvatures SK of the surface of the nodes likewise, thickness STH.
 int section_components(std::string_view variable) {
   if (variable == "SF" || variable == "SE") return 5;
   if (variable == "SM" || variable == "SK") return 3;
@@ -49,7 +52,8 @@ std::array<double, 2> middle_shear(const double* record, const std::array<double
   for (int i = 0; i < Layout::edges; ++i)
     for (int direction = 0; direction < 2; ++direction)
       for (int a = 0; a < 2; ++a)
-        middle.natural_gradient[2 * direction + a] += record[(direction * Layout::edges + i) * pack_size] * natural[i][a];
+        middle.natural_gradient[2 * direction + a] +=
+            record[(direction * Layout::edges + i) * pack_size] * natural[i][a];
   const auto map = shell_shear_strain<corners>(middle);
   std::array<double, 2> strain{};
   for (int i = 0; i < corners; ++i)
@@ -67,16 +71,16 @@ int ShellGroup<corners, points>::point_components(std::string_view variable) con
 }
 
 template <int corners, int points>
-void ShellGroup<corners, points>::point_output(std::string_view name, std::int32_t element, int integration_point, const NodalMotion& motion,
-                                               std::span<const double> history, std::span<double> values) const {
+void ShellGroup<corners, points>::point_output(std::string_view name, std::int32_t element, int integration_point,
+                                               const NodalMotion& motion, std::span<const double> history,
+                                               std::span<double> values) const {
   const double* const data = record(element);
   const auto strain = kernel_at(element, motion).strains();
   const int point = integration_point / layers();
   const auto here = strain_at<double>(data, point, strain);
   const double h = data[(Record::point + point * Record::point_size + 1) * pack_size];
   const auto [variable, index] = request(name, integration_point % layers(), layers());
-  if (layer_components(section_, variable) > 0)
-    return layer_output(variable, point, index, {here, h}, history, values);
+  if (layer_components(section_, variable) > 0) return layer_output(variable, point, index, {here, h}, history, values);
   section_output(variable, point, {here, h}, middle_shear<corners>(data, strain.shear), history, values);
 }
 
@@ -106,16 +110,19 @@ void ShellGroup<corners, points>::layer_output(std::string_view variable, int po
 }
 
 template <int corners, int points>
-void ShellGroup<corners, points>::section_output(std::string_view variable, int point, const Place& at, const std::array<double, 2>& shear,
-                                                 std::span<const double> history, std::span<double> values) const {
+void ShellGroup<corners, points>::section_output(std::string_view variable, int point, const Place& at,
+                                                 const std::array<double, 2>& shear, std::span<const double> history,
+                                                 std::span<double> values) const {
   const auto& e = at.strain.membrane;
   const auto& k = at.strain.curvature;
   if (variable == "STH") {
     double stretch = section_.layers.empty() ? 1.0 : 0.0;
     for (const ShellLayer& layer : section_.layers) {
       const ShellPly& ply = section_.plies[layer.ply];
-      stretch += layer.weight * ply.law->transverse_stretch(layer_strain<double>(ply, layer.height * at.thickness, e, k),
-                                                            history.subspan(point * section_.history_size + layer.history, ply.law->history_size()));
+      stretch +=
+          layer.weight * ply.law->transverse_stretch(
+                             layer_strain<double>(ply, layer.height * at.thickness, e, k),
+                             history.subspan(point * section_.history_size + layer.history, ply.law->history_size()));
     }
     values[0] = at.thickness * stretch;
   } else if (variable == "SE") {

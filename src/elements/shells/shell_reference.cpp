@@ -12,20 +12,25 @@ namespace {
 using Matrix3 = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 using Modes = Eigen::Matrix<double, 3, 2>;  // strain 11, 22, 2x12 of the two modes
 
-/// Stiffness of drilling relative to the shear stiffness in the plane: of the element's mean, which no deformation calls, and of
-/// what the corners differ from it by, which in-plane bending calls: small, or it would stiffen that.
+/// Stiffness of drilling relative to the shear stiffness in the plane: of the element's mean, which no deformation
+/// calls, and of what the corners differ from it by, which in-plane bending calls: small, or it would stiffen that.
 constexpr double drill_mean = 0.1, drill_deviation = 1e-4;
 /// Abaqus's default of the hourglass stiffness relative to the shear stiffness (HOURGLASS=STIFFNESS).
 constexpr double stiffness_coefficient = 0.005;
 /// Rotary inertia per mass and area of the element in the explicit loop.
 constexpr double rotary_scale = 1.0 / 8.0;
 
-void put(double* record, int component, double value) { record[component * pack_size] = value; }
+void put(double* record, int component, double value) {
+  record[component * pack_size] = value;
+}
 
-Matrix3 as_matrix(const PlaneStiffness& stiffness) { return Eigen::Map<const Matrix3>(stiffness.data()); }
+Matrix3 as_matrix(const PlaneStiffness& stiffness) {
+  return Eigen::Map<const Matrix3>(stiffness.data());
+}
 
-/// Strain of the modes at a point: each is uniaxial stress along one axis of the element, so that in-plane bending locks neither
-/// by parasitic shear nor by Poisson's ratio (Belytschko & Bindeman, Comp. Meth. Appl. Mech. Eng. 88, 1991).
+/// Strain of the modes at a point: each is uniaxial stress along one axis of the element, so that in-plane bending
+/// locks neither by parasitic shear nor by Poisson's ratio (Belytschko & Bindeman, Comp. Meth. Appl. Mech. Eng. 88,
+/// 1991).
 Modes mode_strain(const ShellGeometry& geometry, const ShellSection& section, const ShellPoint& point) {
   const double c = std::cos(geometry.axis_angle), s = std::sin(geometry.axis_angle);
   const PlaneStiffness flexible = compliance(rotated_stiffness(section.stiffness.membrane, -geometry.axis_angle));
@@ -90,17 +95,17 @@ void fill_elastic(const ShellGeometry& geometry, const ShellSection& section, do
     stiffness += geometry.point[q].area * thickness * strain.transpose() * shear * strain;
   }
   for (int i = 0; i < corners; ++i)
-    for (int j = i; j < corners; ++j)
-      put(record, ShellKernel<double, corners>::shear_stiffness(i, j), stiffness(i, j));
+    for (int j = i; j < corners; ++j) put(record, ShellKernel<double, corners>::shear_stiffness(i, j), stiffness(i, j));
   const double drill = section.stiffness.membrane[8] * thickness * geometry.area / corners;
   put(record, Layout::drill_stiffness, drill_mean * drill);
   put(record, Layout::drill_stiffness + 1, drill_deviation * drill);
 }
 
 /// Stiffness of the modes of a one-point quadrilateral: what the full element's linear fields would store.
-void fill_hourglass(const ShellGeometry& geometry, const ShellSection& section, double h, const ShellHourglassOptions& options,
-                    double* hourglass) {
-  const PlaneStiffness* const part[3] = {&section.stiffness.membrane, &section.stiffness.coupling, &section.stiffness.bending};
+void fill_hourglass(const ShellGeometry& geometry, const ShellSection& section, double h,
+                    const ShellHourglassOptions& options, double* hourglass) {
+  const PlaneStiffness* const part[3] = {&section.stiffness.membrane, &section.stiffness.coupling,
+                                         &section.stiffness.bending};
   const double power[3] = {h, h * h, h * h * h};
   for (int p = 0; p < 3; ++p) {
     Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero();
@@ -122,13 +127,15 @@ void fill_hourglass(const ShellGeometry& geometry, const ShellSection& section, 
 
 }  // namespace
 
-// MITC4 (Dvorkin & Bathe 1984, eq. 13) and MITC3 (Lee & Bathe 2004, eq. 31): covariant strains interpolated from the middles of the edges.
+// MITC4 (Dvorkin & Bathe 1984, eq. 13) and MITC3 (Lee & Bathe 2004, eq. 31): covariant strains interpolated from the
+// middles of the edges.
 template <int corners>
 std::array<std::array<double, corners>, 2> shell_shear_strain(const ShellPoint& point) {
   const auto [xi, eta] = point.natural;
   std::array<std::array<double, corners>, 2> natural, result;
   if constexpr (corners == 4)
-    natural = {{{0.125 * (1.0 - eta), 0.0, -0.125 * (1.0 + eta), 0.0}, {0.0, 0.125 * (1.0 + xi), 0.0, -0.125 * (1.0 - xi)}}};
+    natural = {
+        {{0.125 * (1.0 - eta), 0.0, -0.125 * (1.0 + eta), 0.0}, {0.0, 0.125 * (1.0 + xi), 0.0, -0.125 * (1.0 - xi)}}};
   else
     natural = {{{0.5 * (1.0 - eta), -0.5 * eta, -0.5 * eta}, {0.5 * xi, 0.5 * xi, -0.5 * (1.0 - xi)}}};
   const auto& d = point.natural_gradient;
@@ -141,7 +148,9 @@ std::array<std::array<double, corners>, 2> shell_shear_strain(const ShellPoint& 
 template std::array<std::array<double, 3>, 2> shell_shear_strain<3>(const ShellPoint&);
 template std::array<std::array<double, 4>, 2> shell_shear_strain<4>(const ShellPoint&);
 
-double rotary_inertia_per_mass(const ShellSection& section, double thickness) { return section.rotary * thickness * thickness; }
+double rotary_inertia_per_mass(const ShellSection& section, double thickness) {
+  return section.rotary * thickness * thickness;
+}
 
 double scaled_rotary_inertia_per_mass(const ShellSection& section, double thickness, double area) {
   return std::max(rotary_inertia_per_mass(section, thickness), rotary_scale * area);
@@ -176,7 +185,8 @@ void set_shell_stability(const ShellGeometry& geometry, const ShellSection& sect
                          std::span<const double> mass, std::span<const double> rotary_inertia, double* record) {
   using Record = ShellRecord<corners, points>;
   constexpr int size = 6 * corners;
-  Eigen::MatrixXd scaled = Eigen::Map<const Eigen::MatrixXd>(stiffness.data(), size, size);  // of dynamic size: quicker to compile
+  Eigen::MatrixXd scaled =
+      Eigen::Map<const Eigen::MatrixXd>(stiffness.data(), size, size);  // of dynamic size: quicker to compile
   double gradients = 0.0, inverse_mass = 0.0;
   for (int i = 0; i < corners; ++i) {
     const double m = mass[i] > 0.0 ? 1.0 / mass[i] : 0.0, j = mass[i] > 0.0 ? 1.0 / rotary_inertia[i] : 0.0;
@@ -193,7 +203,9 @@ void set_shell_stability(const ShellGeometry& geometry, const ShellSection& sect
   const double thickness = record[(Record::point + 1) * pack_size], volume = geometry.area * thickness;
   double gg = 0.0;
   for (const ShellPoint& point : geometry.point)
-    gg += point.area / geometry.area * (point.hourglass_gradient[0] * point.hourglass_gradient[0] + point.hourglass_gradient[1] * point.hourglass_gradient[1]);
+    gg += point.area / geometry.area *
+          (point.hourglass_gradient[0] * point.hourglass_gradient[0] +
+           point.hourglass_gradient[1] * point.hourglass_gradient[1]);
   // Bending stress turns with the directors beside the tension: at most 0.58 of what the same stress does as tension.
   put(record, Record::tension, 1.6 * volume * (gradients + gg * inverse_mass));
   const double modulus = std::min(section.stiffness.membrane[0], section.stiffness.membrane[4]);
@@ -201,11 +213,17 @@ void set_shell_stability(const ShellGeometry& geometry, const ShellSection& sect
   put(record, Record::dilatation, geometry.area * gradients);
 }
 
-template void fill_shell_reference<3, 1>(const ShellGeometry&, const ShellSection&, std::span<const double>, const ShellHourglassOptions&, double*);
-template void fill_shell_reference<4, 1>(const ShellGeometry&, const ShellSection&, std::span<const double>, const ShellHourglassOptions&, double*);
-template void fill_shell_reference<4, 4>(const ShellGeometry&, const ShellSection&, std::span<const double>, const ShellHourglassOptions&, double*);
-template void set_shell_stability<3, 1>(const ShellGeometry&, const ShellSection&, std::span<const double>, std::span<const double>, std::span<const double>, double*);
-template void set_shell_stability<4, 1>(const ShellGeometry&, const ShellSection&, std::span<const double>, std::span<const double>, std::span<const double>, double*);
-template void set_shell_stability<4, 4>(const ShellGeometry&, const ShellSection&, std::span<const double>, std::span<const double>, std::span<const double>, double*);
+template void fill_shell_reference<3, 1>(const ShellGeometry&, const ShellSection&, std::span<const double>,
+                                         const ShellHourglassOptions&, double*);
+template void fill_shell_reference<4, 1>(const ShellGeometry&, const ShellSection&, std::span<const double>,
+                                         const ShellHourglassOptions&, double*);
+template void fill_shell_reference<4, 4>(const ShellGeometry&, const ShellSection&, std::span<const double>,
+                                         const ShellHourglassOptions&, double*);
+template void set_shell_stability<3, 1>(const ShellGeometry&, const ShellSection&, std::span<const double>,
+                                        std::span<const double>, std::span<const double>, double*);
+template void set_shell_stability<4, 1>(const ShellGeometry&, const ShellSection&, std::span<const double>,
+                                        std::span<const double>, std::span<const double>, double*);
+template void set_shell_stability<4, 4>(const ShellGeometry&, const ShellSection&, std::span<const double>,
+                                        std::span<const double>, std::span<const double>, double*);
 
 }  // namespace balocco

@@ -31,13 +31,14 @@ struct ShellHourglassOptions {
   double scale = 1.0;
 };
 
-/// Fills one lane of a record: component c goes to record[c * pack_size]. `thickness` are those of the corners. What the stable
-/// increment needs is left to set_shell_stability.
+/// Fills one lane of a record: component c goes to record[c * pack_size]. `thickness` are those of the corners. What
+/// the stable increment needs is left to set_shell_stability.
 template <int corners, int points>
 void fill_shell_reference(const ShellGeometry& geometry, const ShellSection& section, std::span<const double> thickness,
                           const ShellHourglassOptions& hourglass, double* record);
 
-/// The stable increment's data, from the stiffness at rest (6 freedoms a corner, row-major) and the inertia of the corners.
+/// The stable increment's data, from the stiffness at rest (6 freedoms a corner, row-major) and the inertia of the
+/// corners.
 template <int corners, int points>
 void set_shell_stability(const ShellGeometry& geometry, const ShellSection& section, std::span<const double> stiffness,
                          std::span<const double> mass, std::span<const double> rotary_inertia, double* record);
@@ -46,8 +47,9 @@ void set_shell_stability(const ShellGeometry& geometry, const ShellSection& sect
 template <int corners>
 std::array<std::array<double, corners>, 2> shell_shear_strain(const ShellPoint& point);
 
-/// Isotropic rotary inertia of a corner per mass: that of its tributary plate, but in the explicit loop never so small that
-/// bending and transverse shear vibrate faster than the membrane (Hughes, Cohen & Haroun, Nucl. Eng. Des. 46, 1978).
+/// Isotropic rotary inertia of a corner per mass: that of its tributary plate, but in the explicit loop never so small
+/// that bending and transverse shear vibrate faster than the membrane (Hughes, Cohen & Haroun, Nucl. Eng. Des. 46,
+/// 1978).
 double rotary_inertia_per_mass(const ShellSection& section, double thickness);
 double scaled_rotary_inertia_per_mass(const ShellSection& section, double thickness, double area);
 

@@ -43,12 +43,14 @@ std::array<Matrix3<T>, corners> as_rotations(const std::array<Matrix3<double>, c
 
 /// Resultants of a strain of any scalar: value from the section, derivatives by the chain rule with its stiffness.
 template <class T>
-std::array<T, 6> chained_resultants(const ShellSection& section, double thickness, const std::array<T, 6>& strain, std::span<double> history) {
+std::array<T, 6> chained_resultants(const ShellSection& section, double thickness, const std::array<T, 6>& strain,
+                                    std::span<double> history) {
   std::array<double, 6> strain_value, value;
   std::array<double, 36> stiffness;
   for (int i = 0; i < 6; ++i) strain_value[i] = value_of(strain[i]);
   constexpr bool differentiate = !std::is_same_v<T, double>;
-  shell_resultants(section, thickness, strain_value, history, value, differentiate ? std::span<double>(stiffness) : std::span<double>());
+  shell_resultants(section, thickness, strain_value, history, value,
+                   differentiate ? std::span<double>(stiffness) : std::span<double>());
   std::array<T, 6> result;
   for (int i = 0; i < 6; ++i) {
     result[i] = T(value[i]);
@@ -74,7 +76,8 @@ Configuration<corners> configuration(std::span<const std::int32_t> node, const N
     result.rotation[i] = rotation_matrix<double>({q[0], q[1], q[2], q[3]});
     if (i > 0)
       for (int c = 0; c < 3; ++c)
-        result.edge[i - 1][c] = motion.position[4 * std::ptrdiff_t{node[i]} + c] - motion.position[4 * std::ptrdiff_t{node[0]} + c];
+        result.edge[i - 1][c] =
+            motion.position[4 * std::ptrdiff_t{node[i]} + c] - motion.position[4 * std::ptrdiff_t{node[0]} + c];
   }
   return result;
 }
@@ -105,8 +108,8 @@ void spread_stiffness(const ShellForces<Dual<6 * corners>, corners>& nodal, std:
 
 template <int corners, int points>
 template <class T>
-bool ShellGroup<corners, points>::internal_force(const double* data, const ShellKernel<T, corners>& kernel, std::span<double> history,
-                                                 ShellForces<T, corners>& nodal) const {
+bool ShellGroup<corners, points>::internal_force(const double* data, const ShellKernel<T, corners>& kernel,
+                                                 std::span<double> history, ShellForces<T, corners>& nodal) const {
   const auto c = [&](const Vector3<T>& a, const Vector3<T>& b) { return value_of(dot(a, b)); };
   const double square = c(kernel.tangent1(), kernel.tangent1()) * c(kernel.tangent2(), kernel.tangent2()) -
                         std::pow(c(kernel.tangent1(), kernel.tangent2()), 2);
@@ -119,9 +122,12 @@ bool ShellGroup<corners, points>::internal_force(const double* data, const Shell
     const auto here = strain_at<T>(data, q, strain);
     const double thickness = data[(Record::point + q * Record::point_size + 1) * pack_size];
     const auto resultants = chained_resultants<T>(
-        section_, thickness, {here.membrane[0], here.membrane[1], here.membrane[2], here.curvature[0], here.curvature[1], here.curvature[2]},
+        section_, thickness,
+        {here.membrane[0], here.membrane[1], here.membrane[2], here.curvature[0], here.curvature[1], here.curvature[2]},
         history.empty() ? history : history.subspan(q * section_.history_size, section_.history_size));
-    add_resultants<T>(data, q, {{resultants[0], resultants[1], resultants[2]}, {resultants[3], resultants[4], resultants[5]}}, stress);
+    add_resultants<T>(data, q,
+                      {{resultants[0], resultants[1], resultants[2]}, {resultants[3], resultants[4], resultants[5]}},
+                      stress);
   }
   kernel.add_forces(stress, nodal);
   history[area_ratio_row()] = std::sqrt(square);
@@ -134,8 +140,9 @@ bool ShellGroup<corners, points>::internal_force(const double* data, const Shell
 }
 
 template <int corners, int points>
-bool ShellGroup<corners, points>::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
-                                            std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const {
+bool ShellGroup<corners, points>::linearize(std::int32_t element, const NodalMotion& motion,
+                                            std::span<const double> old_history, std::span<double> new_history,
+                                            std::span<double> force, std::span<double> stiffness) const {
   std::copy(old_history.begin(), old_history.end(), new_history.begin());
   const auto at = configuration<corners>(ElementGroup::nodes(element), motion);
   const auto spread = [&](const auto& nodal) {
@@ -150,12 +157,14 @@ bool ShellGroup<corners, points>::linearize(std::int32_t element, const NodalMot
   };
   if (stiffness.empty()) {
     ShellForces<double, corners> nodal;
-    if (!internal_force<double>(record(element), make_kernel<double>(record(element), at), new_history, nodal)) return false;
+    if (!internal_force<double>(record(element), make_kernel<double>(record(element), at), new_history, nodal))
+      return false;
     spread(nodal);
     return true;
   }
   ShellForces<Dual<6 * corners>, corners> nodal;
-  if (!internal_force<Dual<6 * corners>>(record(element), make_kernel<Dual<6 * corners>>(record(element), at), new_history, nodal))
+  if (!internal_force<Dual<6 * corners>>(record(element), make_kernel<Dual<6 * corners>>(record(element), at),
+                                         new_history, nodal))
     return false;
   spread(nodal);
   spread_stiffness<corners>(nodal, stiffness);
@@ -163,19 +172,22 @@ bool ShellGroup<corners, points>::linearize(std::int32_t element, const NodalMot
 }
 
 template <int corners, int points>
-void ShellGroup<corners, points>::stiffness_at_rest(std::int32_t element, const ShellGeometry& geometry, std::span<double> stiffness) const {
+void ShellGroup<corners, points>::stiffness_at_rest(std::int32_t element, const ShellGeometry& geometry,
+                                                    std::span<double> stiffness) const {
   Configuration<corners> at;
   for (int i = 1; i < corners; ++i) at.edge[i - 1] = geometry.edge[i];
   at.rotation.fill(Matrix3<double>::identity());
   std::vector<double> history(history_size());
   initialize_history(history);
   ShellForces<Dual<6 * corners>, corners> nodal;
-  internal_force<Dual<6 * corners>>(record(element), make_kernel<Dual<6 * corners>>(record(element), at), history, nodal);
+  internal_force<Dual<6 * corners>>(record(element), make_kernel<Dual<6 * corners>>(record(element), at), history,
+                                    nodal);
   spread_stiffness<corners>(nodal, stiffness);
 }
 
 template <int corners, int points>
-ShellKernel<double, corners> ShellGroup<corners, points>::kernel_at(std::int32_t element, const NodalMotion& motion) const {
+ShellKernel<double, corners> ShellGroup<corners, points>::kernel_at(std::int32_t element,
+                                                                    const NodalMotion& motion) const {
   return make_kernel<double>(record(element), configuration<corners>(ElementGroup::nodes(element), motion));
 }
 
@@ -191,7 +203,8 @@ void ShellGroup<corners, points>::initialize_history(std::span<double> history) 
 }
 
 template <int corners, int points>
-ElementEnergies ShellGroup<corners, points>::energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const {
+ElementEnergies ShellGroup<corners, points>::energies(std::int32_t element, const NodalMotion& motion,
+                                                      std::span<const double> history) const {
   const double* const data = record(element);
   const auto kernel = kernel_at(element, motion);
   const auto strain = kernel.strains();
@@ -204,14 +217,15 @@ ElementEnergies ShellGroup<corners, points>::energies(std::int32_t element, cons
     result.hourglass += 0.5 * elastic.drill[i] * strain.drill[i];
   }
   for (int a = 0; a < Record::Layout::modes; ++a)
-    result.hourglass += 0.5 * (hourglass.membrane_mode[a] * strain.membrane_mode[a] + hourglass.bending_mode[a] * strain.bending_mode[a]);
+    result.hourglass += 0.5 * (hourglass.membrane_mode[a] * strain.membrane_mode[a] +
+                               hourglass.bending_mode[a] * strain.bending_mode[a]);
   for (int q = 0; q < points; ++q) {
     const auto here = strain_at<double>(data, q, strain);
     const double* const point = data + (Record::point + q * Record::point_size) * pack_size;
-    const EnergyDensity density =
-        shell_energy(section_, point[pack_size],
-                     {here.membrane[0], here.membrane[1], here.membrane[2], here.curvature[0], here.curvature[1], here.curvature[2]},
-                     history.subspan(q * section_.history_size, section_.history_size));
+    const EnergyDensity density = shell_energy(
+        section_, point[pack_size],
+        {here.membrane[0], here.membrane[1], here.membrane[2], here.curvature[0], here.curvature[1], here.curvature[2]},
+        history.subspan(q * section_.history_size, section_.history_size));
     result.strain += point[0] * density.recoverable;
     result.plastic += point[0] * density.plastic;
     result.viscous += point[0] * density.viscous;

@@ -13,7 +13,8 @@
 
 namespace balocco::test {
 
-/// One element table with one section and its only group; local nodes are the model's rows, the scratch node comes last.
+/// One element table with one section and its only group; local nodes are the model's rows, the scratch node comes
+/// last.
 struct Shell {
   Model model;
   std::unique_ptr<ElementGroup> group;
@@ -69,8 +70,9 @@ struct Shell {
   void move(const Eigen::VectorXd& step) {
     for (std::int32_t n = 0; n < model.nodes.size(); ++n) {
       for (int c = 0; c < 3; ++c) position[4 * n + c] += step[6 * n + c];
-      const Quaternion<double> q = turned({orientation[4 * n], orientation[4 * n + 1], orientation[4 * n + 2], orientation[4 * n + 3]},
-                                          {{step[6 * n + 3], step[6 * n + 4], step[6 * n + 5]}});
+      const Quaternion<double> q =
+          turned({orientation[4 * n], orientation[4 * n + 1], orientation[4 * n + 2], orientation[4 * n + 3]},
+                 {{step[6 * n + 3], step[6 * n + 4], step[6 * n + 5]}});
       std::ranges::copy(q, orientation.begin() + 4 * n);
     }
   }

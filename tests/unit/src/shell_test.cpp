@@ -1,4 +1,5 @@
-// Shells: rigid motions, modes without energy, the gradient of the energy, patch tests, SIMD against scalars, stable increments.
+// Shells: rigid motions, modes without energy, the gradient of the energy, patch tests, SIMD against scalars, stable
+// increments.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -22,7 +23,8 @@ void move_rigidly(Shell& shell, const Vector3<double>& spin, const Vector3<doubl
     const Vector3<double> x{{shell.position[4 * n], shell.position[4 * n + 1], shell.position[4 * n + 2]}};
     const Vector3<double> moved = r * x + shift;
     for (int c = 0; c < 3; ++c) shell.position[4 * n + c] = moved[c];
-    const Quaternion<double> old{shell.orientation[4 * n], shell.orientation[4 * n + 1], shell.orientation[4 * n + 2], shell.orientation[4 * n + 3]};
+    const Quaternion<double> old{shell.orientation[4 * n], shell.orientation[4 * n + 1], shell.orientation[4 * n + 2],
+                                 shell.orientation[4 * n + 3]};
     std::ranges::copy(product(q, old), shell.orientation.begin() + 4 * n);
   }
 }
@@ -57,7 +59,9 @@ TEST(Shell, ForceIsTheGradientOfTheEnergy) {
       Shell shell = crooked(type);
       shell.model.sections[0].shell.offset = 0.3;
       if (stack) shell.model.sections[0].plies = {{0.03, 0, 0.4, 3}, {0.05, 0, -0.9, 5}};
-      if (stack) shell.model.materials[0].law = "lamina", shell.model.materials[0].parameters = {100.0, 10.0, 0.3, 4.0, 3.0, 2.0};
+      if (stack)
+        shell.model.materials[0].law = "lamina",
+        shell.model.materials[0].parameters = {100.0, 10.0, 0.3, 4.0, 3.0, 2.0};
       if (stack) shell.model.sections[0].thickness = 0.08;
       shell.build();
       shell.move(scatter(shell.freedoms(), 0.1));
@@ -73,7 +77,8 @@ TEST(Shell, ForceIsTheGradientOfTheEnergy) {
       double error[2];
       for (int i = 0; i < 2; ++i) {
         const double size = i == 0 ? 2e-3 : 1e-3;
-        error[i] = std::abs((energy_at(size * direction) - energy_at(-size * direction)) / (2.0 * size) - force.dot(direction));
+        error[i] = std::abs((energy_at(size * direction) - energy_at(-size * direction)) / (2.0 * size) -
+                            force.dot(direction));
       }
       EXPECT_LT(error[1], 1e-3 * std::abs(force.dot(direction))) << type;
       EXPECT_NEAR(error[0] / error[1], 4.0, 0.2) << type;  // central differences are of second order
@@ -109,8 +114,10 @@ TEST(Shell, TangentIsTheDerivativeOfTheForce) {
 
 /// MacNeal & Harder's patch: a crooked inner quadrilateral in a rectangle; triangles split each element in two.
 Shell patch(const std::string& type) {
-  const std::vector<Point> nodes{{0, 0, 0}, {0.24, 0, 0}, {0.24, 0.12, 0}, {0, 0.12, 0}, {0.04, 0.02, 0}, {0.18, 0.03, 0}, {0.16, 0.08, 0}, {0.08, 0.08, 0}};
-  const std::vector<std::array<int, 4>> quadrilaterals{{0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
+  const std::vector<Point> nodes{{0, 0, 0},       {0.24, 0, 0},    {0.24, 0.12, 0}, {0, 0.12, 0},
+                                 {0.04, 0.02, 0}, {0.18, 0.03, 0}, {0.16, 0.08, 0}, {0.08, 0.08, 0}};
+  const std::vector<std::array<int, 4>> quadrilaterals{
+      {0, 1, 5, 4}, {1, 2, 6, 5}, {2, 3, 7, 6}, {3, 0, 4, 7}, {4, 5, 6, 7}};
   std::vector<std::int32_t> connectivity;
   for (const auto& q : quadrilaterals) {
     if (type == "S3R")
@@ -125,12 +132,14 @@ Shell patch(const std::string& type) {
   return shell;
 }
 
-/// Prescribes a linear field on the outer nodes, solves for the inner ones, and returns the greatest difference to the field there.
+/// Prescribes a linear field on the outer nodes, solves for the inner ones, and returns the greatest difference to the
+/// field there.
 double patch_error(Shell& shell, const Eigen::VectorXd& field, bool hold_inner_rotation_about_normal = false) {
   Eigen::MatrixXd stiffness;
   shell.forces(&stiffness);
   std::vector<int> inner, outer;
-  for (int i = 0; i < shell.freedoms(); ++i) (i / 6 >= 4 && !(hold_inner_rotation_about_normal && i % 6 == 5) ? inner : outer).push_back(i);
+  for (int i = 0; i < shell.freedoms(); ++i)
+    (i / 6 >= 4 && !(hold_inner_rotation_about_normal && i % 6 == 5) ? inner : outer).push_back(i);
   const Eigen::VectorXd load = -stiffness(inner, outer) * field(outer);
   const Eigen::VectorXd solution = stiffness(inner, inner).ldlt().solve(load);
   return (solution - field(inner)).lpNorm<Eigen::Infinity>() / field.lpNorm<Eigen::Infinity>();
@@ -164,7 +173,8 @@ TEST(Shell, PackEqualsScalarBitForBit) {
   using Record = ShellRecord<4, 1>;
   alignas(64) double record[Record::size * pack_size];
   const std::array<double, 4> thickness{0.1, 0.1, 0.1, 0.1};
-  for (int lane = 0; lane < pack_size; ++lane) fill_shell_reference<4, 1>(geometry, section, thickness, {}, record + lane);
+  for (int lane = 0; lane < pack_size; ++lane)
+    fill_shell_reference<4, 1>(geometry, section, thickness, {}, record + lane);
 
   ShellKernel<double, 4>::Edges edge;
   ShellKernel<Pack, 4>::Edges edges;
@@ -194,7 +204,9 @@ TEST(Shell, PackEqualsScalarBitForBit) {
     for (int i = 0; i < 4; ++i)
       for (int c = 0; c < 3; ++c) {
         EXPECT_EQ(nodal.moment[i][c], nodals.moment[i][c][lane]);
-        if (i > 0) { EXPECT_EQ(nodal.force[i - 1][c], nodals.force[i - 1][c][lane]); }
+        if (i > 0) {
+          EXPECT_EQ(nodal.force[i - 1][c], nodals.force[i - 1][c][lane]);
+        }
       }
 }
 
@@ -207,7 +219,8 @@ TEST(Shell, ExplicitForcesAreThoseOfStatics) {
       shell.build();
       shell.move(scatter(shell.freedoms(), 0.1));
       const Eigen::VectorXd statics = shell.forces();
-      EXPECT_LT((shell.explicit_forces() + statics).lpNorm<Eigen::Infinity>(), 1e-9) << type;  // the quantum of the sums
+      EXPECT_LT((shell.explicit_forces() + statics).lpNorm<Eigen::Infinity>(), 1e-9)
+          << type;  // the quantum of the sums
     }
 }
 
@@ -283,7 +296,8 @@ TEST(Shell, NormalsThatFlipAreFoundAndGivenNormalsRule) {
 TEST(Shell, SectionRulesIntegrateExactly) {
   for (const int points : {3, 5, 7, 9}) {
     double weight = 0.0, second = 0.0;
-    for (const auto& point : thickness_rule(points, false)) weight += point.weight, second += point.weight * point.position * point.position;
+    for (const auto& point : thickness_rule(points, false))
+      weight += point.weight, second += point.weight * point.position * point.position;
     EXPECT_NEAR(weight, 1.0, 1e-15);
     EXPECT_NEAR(second, 1.0 / 12.0, 1e-15);
   }
