@@ -123,19 +123,6 @@ std::array<double, 2> gradient(const ShellPoint& point, const Shape& shape, int 
   return {d[0] * shape.by_xi[i] + d[1] * shape.by_eta[i], d[2] * shape.by_xi[i] + d[3] * shape.by_eta[i]};
 }
 
-/// Angle of the orthonormal axes that lie closest to the two mid-lines of a quadrilateral.
-double mid_line_angle(const Flat& flat) {
-  double xi1 = 0.0, xi2 = 0.0, eta1 = 0.0, eta2 = 0.0;
-  for (int i = 0; i < 4; ++i) {
-    xi1 += corner_xi[i] * flat.x[i];
-    xi2 += corner_xi[i] * flat.y[i];
-    eta1 += corner_eta[i] * flat.x[i];
-    eta2 += corner_eta[i] * flat.y[i];
-  }
-  const double xi = std::hypot(xi1, xi2), eta = std::hypot(eta1, eta2);
-  return std::atan2(xi2 / xi - eta1 / eta, xi1 / xi + eta2 / eta);
-}
-
 void add_points(const Element& element, const Flat& flat, ShellGeometry& geometry) {
   std::array<Shape, 4> shape;
   geometry.points = geometry.corners;
@@ -174,7 +161,12 @@ void add_points(const Element& element, const Flat& flat, ShellGeometry& geometr
       geometry.point[q].hourglass_gradient[0] += (b1 - geometry.gradient1[i]) * geometry.gamma[i] / square;
       geometry.point[q].hourglass_gradient[1] += (b2 - geometry.gradient2[i]) * geometry.gamma[i] / square;
     }
-  geometry.axis_angle = mid_line_angle(flat);
+  for (int i = 0; i < 4; ++i)
+    for (int line = 0; line < 2; ++line) {
+      const double natural = 0.25 * (line == 0 ? corner_xi[i] : corner_eta[i]);
+      geometry.mid_line[line][0] += natural * flat.x[i];
+      geometry.mid_line[line][1] += natural * flat.y[i];
+    }
 }
 
 }  // namespace

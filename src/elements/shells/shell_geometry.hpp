@@ -29,7 +29,7 @@ struct ShellGeometry {
   double area = 0.0;
   double length = 0.0;      // area / longest side (triangles: twice that, the smallest height)
   double warp = 0.0;        // gamma . X along the normal: not zero if the element is not flat
-  double axis_angle = 0.0;  // from direction1 to the element's own first axis
+  std::array<std::array<double, 2>, 2> mid_line{};      // quadrilaterals: d X / d xi and d X / d eta in the middle
 };
 
 /// @throws InputError if the element has no area, is folded, a corner's normal lies in its surface, or the section's

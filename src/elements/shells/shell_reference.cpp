@@ -28,22 +28,19 @@ Matrix3 as_matrix(const PlaneStiffness& stiffness) {
   return Eigen::Map<const Matrix3>(stiffness.data());
 }
 
-/// Strain of the modes at a point: each is uniaxial stress along one axis of the element, so that in-plane bending
-/// locks neither by parasitic shear nor by Poisson's ratio (Belytschko & Bindeman, Comp. Meth. Appl. Mech. Eng. 88,
-/// 1991).
+/// Strain of the modes at a point: each is uniaxial stress along one mid-line of the element, which does work on the stretch of that
+/// line alone, so that in-plane bending locks neither by parasitic shear nor by Poisson's ratio (Pian & Sumihara, Int. J. Numer.
+/// Meth. Eng. 20, 1984).
 Modes mode_strain(const ShellGeometry& geometry, const ShellSection& section, const ShellPoint& point) {
-  const double c = std::cos(geometry.axis_angle), s = std::sin(geometry.axis_angle);
-  const PlaneStiffness flexible = compliance(rotated_stiffness(section.stiffness.membrane, -geometry.axis_angle));
-  const double g[2] = {c * point.hourglass_gradient[0] + s * point.hourglass_gradient[1],
-                       -s * point.hourglass_gradient[0] + c * point.hourglass_gradient[1]};
-  Modes in_axes;
-  for (int a = 0; a < 2; ++a)
-    for (int i = 0; i < 3; ++i) in_axes(i, a) = g[a] * flexible[3 * i + a] / flexible[4 * a];
-  Matrix3 strain_from_axes;
-  strain_from_axes << c * c, s * s, -c * s, s * s, c * c, c * s, 2.0 * c * s, -2.0 * c * s, c * c - s * s;
-  Eigen::Matrix2d to_axes;
-  to_axes << c, s, -s, c;
-  return strain_from_axes * in_axes * to_axes;
+  const PlaneStiffness flexibility = compliance(section.stiffness.membrane);
+  Modes result = Modes::Zero();
+  for (const auto& line : geometry.mid_line) {
+    const Eigen::Vector3d along(line[0] * line[0], line[1] * line[1], line[0] * line[1]);
+    const Eigen::Vector3d strain = as_matrix(flexibility) * along;
+    const double gradient = line[0] * point.hourglass_gradient[0] + line[1] * point.hourglass_gradient[1];
+    result += gradient / along.dot(strain) * strain * Eigen::RowVector2d(line[0], line[1]);
+  }
+  return result;
 }
 
 template <int corners>
