@@ -1,0 +1,222 @@
+#!/usr/bin/env python3
+"""Initial stress and hardening, elements taken out of the model, springs of rotations: element_state_cases.py CASE BALOCCO FOLDER."""
+import math
+import sys
+
+import numpy as np
+
+from explicit_cases import Job, check, failures
+
+FIELD = """*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE
+*NODE OUTPUT
+U, RF, UR
+*ELEMENT OUTPUT
+S
+"""
+
+CUBE = """*NODE, NSET=ALL
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+*NSET, NSET=LEFT
+1, 4, 5, 8
+*NSET, NSET=RIGHT
+2, 3, 6, 7
+*NSET, NSET=FRONT
+1, 2, 5, 6
+*NSET, NSET=BOTTOM
+1, 2, 3, 4
+*ELEMENT, TYPE={kind}, ELSET=CUBE
+1, 1, 2, 3, 4, 5, 6, 7, 8
+*MATERIAL, NAME=M
+*DENSITY
+1e-3
+*ELASTIC
+1000., 0.25
+{plastic}*SOLID SECTION, ELSET=CUBE, MATERIAL=M
+*BOUNDARY
+LEFT, 1
+FRONT, 2
+BOTTOM, 3
+"""
+
+
+def stress_of(job, kind, step, frame=-1):
+    import h5py
+    with h5py.File(job.folder / f"{job.name}.h5") as file:
+        frames = sorted((k for k in file[f"step_{step}"] if k.startswith("frame_")), key=lambda k: int(k[6:]))
+        return np.array(file[f"step_{step}/{frames[frame]}/element/{kind}/S"])[0]
+
+
+def initial_stress(run):
+    """Held between its ends an initial stress stays; let go it relaxes: E e (1 + e ...) balances it. Statics hands it on to the explicit
+    step without a jump."""
+    for kind in ("C3D8R", "C3D8"):
+        deck = CUBE.format(kind=kind, plastic="") + f"""*INITIAL CONDITIONS, TYPE=STRESS
+CUBE, 5., 0., 0.
+*STEP, NLGEOM
+*STATIC
+1., 1.
+*BOUNDARY
+RIGHT, 1, 1, 0.
+{FIELD}*END STEP
+*STEP
+*DYNAMIC, EXPLICIT
+, 1e-3
+*OUTPUT, HISTORY, FREQUENCY=1
+*ENERGY OUTPUT
+ALLKE
+{FIELD}*END STEP
+*STEP, NLGEOM
+*STATIC
+1., 1.
+*BOUNDARY, OP=NEW
+LEFT, 1
+FRONT, 2
+BOTTOM, 3
+{FIELD}*END STEP
+"""
+        job = run(deck, 1)
+        # Sideways it is free and contracts nothing: the stress is there without a strain.
+        check(f"{kind}: stress between held ends", stress_of(job, kind, 1)[0], 5.0, 1e-9)
+        check(f"{kind}: reaction of the right end", job.frame("RF", -1, 1)[[1, 2, 5, 6], 0].sum(), 5.0, 1e-9)
+        check(f"{kind}: nothing starts to move", np.abs(job.history("energy", "ALLKE", 2)[1]).max(), 0.0, 1e-15)
+        check(f"{kind}: stress when it is let go", stress_of(job, kind, 3)[0], 0.0, 1e-9)
+        # St. Venant-Kirchhoff: E (Green strain) = -5.
+        strain = -5.0 / 1000.0
+        check(f"{kind}: displacement then", job.frame("U", -1, 3)[1, 0], math.sqrt(1.0 + 2.0 * strain) - 1.0, 1e-9)
+
+
+def initial_hardening(run):
+    """A bar that has hardened by 0.1 yields at the stress that its table has there."""
+    plastic = "*PLASTIC\n10., 0.\n20., 0.2\n"
+    deck = CUBE.format(kind="C3D8", plastic=plastic) + f"""*INITIAL CONDITIONS, TYPE=HARDENING
+CUBE, 0.1
+*STEP, NLGEOM
+*STATIC
+0.05, 1.
+*BOUNDARY
+RIGHT, 1, 1, 0.02
+{FIELD}*END STEP
+"""
+    job = run(deck, 1)
+    # Kirchhoff stress 15 + 50 e_p with e_p = log(1.02) - stress / E; the Cauchy stress is that over J, of elastic strains alone.
+    kirchhoff = (15.0 + 50.0 * math.log(1.02)) / (1.0 + 50.0 / 1000.0)
+    check("stress past yield", stress_of(job, "C3D8", 1)[0], kirchhoff * math.exp(-0.5 * kirchhoff / 1000.0), 1e-6)
+
+
+def taken_out(run):
+    """Two springs side by side under a load: one taken out, the other takes all of it; taken up again WITH STRAIN, both share. The explicit
+    step that follows without the second shows the reaction of one alone."""
+    deck = f"""*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+*ELEMENT, TYPE=MASS, ELSET=MASS
+9, 2
+*MASS, ELSET=MASS
+1.
+*ELEMENT, TYPE=SPRINGA, ELSET=FIRST
+1, 1, 2
+*ELEMENT, TYPE=SPRINGA, ELSET=SECOND
+2, 1, 2
+*ELSET, ELSET=SPRINGS
+FIRST, SECOND
+*SPRING, ELSET=SPRINGS
+
+100.
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+*STEP, NLGEOM
+*STATIC
+1., 1.
+*CLOAD
+2, 1, 10.
+{FIELD}*END STEP
+*STEP, NLGEOM
+*STATIC
+0.25, 1.
+*MODEL CHANGE, TYPE=ELEMENT, REMOVE
+SECOND
+{FIELD}*END STEP
+*STEP
+*DYNAMIC, EXPLICIT
+, 0.1
+{FIELD}*OUTPUT, HISTORY, FREQUENCY=1
+*ENERGY OUTPUT
+ALLKE, ALLSE
+*END STEP
+*STEP, NLGEOM
+*STATIC
+0.25, 1.
+*MODEL CHANGE, TYPE=ELEMENT, ADD=WITH STRAIN
+2
+{FIELD}*END STEP
+"""
+    job = run(deck, 2)
+    for step, extension in ((1, 0.05), (2, 0.1), (3, 0.1), (4, 0.05)):
+        check(f"extension in step {step}", job.frame("U", -1, step)[1, 0], extension, 1e-9)
+        check(f"reaction in step {step}", job.frame("RF", -1, step)[0, 0], -10.0, 1e-9)
+    check("nothing moves in the explicit step", np.abs(job.history("energy", "ALLKE", 3)[1]).max(), 0.0, 1e-15)
+    check("energy of the one that is left", job.history("energy", "ALLSE", 3)[1][-1], 0.5, 1e-9)
+
+
+def torsion(run):
+    """A spring of rotations holds a rotary inertia: angle in statics, period and bound of the increment in an explicit step."""
+    stiffness, inertia = 40.0, 0.1
+    model = f"""*NODE, NSET=ALL
+1, 0, 0, 0
+2, 1, 0, 0
+*ELEMENT, TYPE=MASS, ELSET=MASS
+1, 2
+*MASS, ELSET=MASS
+1.
+*ELEMENT, TYPE=ROTARYI, ELSET=INERTIA
+2, 2
+*ROTARY INERTIA, ELSET=INERTIA
+{inertia}, {inertia}, {inertia}
+*ELEMENT, TYPE=SPRING1, ELSET=TORSION
+3, 2
+*SPRING, ELSET=TORSION
+4
+{stiffness}
+*BOUNDARY
+2, 1, 3
+2, 5, 6
+"""
+    omega = math.sqrt(stiffness / inertia)
+    load = "*CLOAD\n2, 4, 5.\n"
+    job = run(model + f"*STEP, NLGEOM\n*STATIC\n1., 1.\n{load}{FIELD}*END STEP\n", 1)
+    check("angle in statics", job.frame("UR", -1)[1, 0], 5.0 / stiffness, 1e-9)
+    history = "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=TURNING\nUR1\n*END STEP\n"
+    model = model.replace("*BOUNDARY", "*NSET, NSET=TURNING\n2\n*BOUNDARY")
+    increment = 0.02 / omega
+    job = run(model + f"*STEP\n*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n{increment}, {10.0 / omega}\n{load}{history}", 2)
+    time, angle = job.history("node_2", "UR1")
+    exact = 5.0 / stiffness * (1.0 - np.cos(omega * time))
+    check("largest error of the motion", np.abs(angle - exact).max() / np.abs(exact).max(), 0.0, 1e-3)
+    job = run(model + f"*STEP\n*DYNAMIC, EXPLICIT, ENERGY ERROR=1e9\n, {100.0 / omega}\n{load}{history}", 1)
+    time = job.history("node_2", "UR1")[0]
+    check("automatic increment", time[3] - time[2], 2.0 / omega, 1e-9)
+
+
+def main():
+    case, balocco, folder = sys.argv[1:4]
+    counter = iter(range(1000))
+
+    def run(text, ranks):
+        job = Job(f"{case}_{next(counter)}", balocco, str(ranks), folder)
+        job.run(text)
+        return job
+
+    globals()[case](run)
+    sys.exit(1 if failures else 0)
+
+
+if __name__ == "__main__":
+    main()
