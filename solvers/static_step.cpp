@@ -117,7 +117,8 @@ Outcome StaticStep::run() {
                             system_.map().equations()));
   if (!procedure_.nonlinear_geometry && follows_geometry())
     observer_.log(system_.has_contact() ? "  contact needs iterations: the step runs as if NLGEOM=YES"
-                                        : "  what has had large displacements keeps them: the step runs as if NLGEOM=YES");
+                                        : "  laws that remember, springs with tables or large displacements before need "
+                                          "iterations: the step runs as if NLGEOM=YES");
   if (procedure_.stabilize && !follows_geometry())
     observer_.log("  STABILIZE has nothing to stabilise in a linear step");
   if (taken_up_ && procedure_.stabilize) choose_damping_again();
