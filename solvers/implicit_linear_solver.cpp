@@ -37,6 +37,12 @@ void fill_with_noise(Vec vector) {
 
 }  // namespace
 
+void set_factorization_defaults() {
+  set_default_option("-mat_mumps_icntl_7", "3");    // SCOTCH: half the operations of the default ordering
+  set_default_option("-mat_mumps_icntl_14", "60");  // room for pivoting, per cent
+  set_default_option("-mat_mumps_icntl_13", "1");   // the root front on one rank
+}
+
 ImplicitLinearSolver::ImplicitLinearSolver(Mat matrix, const Analysis& analysis, const ImplicitDofMap& map)
     : map_(map), matrix_(matrix) {
   petsc(MatCreateVecs(matrix, solution_.address(), right_hand_side_.address()));
@@ -55,9 +61,7 @@ void ImplicitLinearSolver::set_defaults() {
   petsc(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));
   petsc(KSPSetTolerances(solver_, 1e-10, PETSC_DEFAULT, PETSC_DEFAULT,
                          2000));                    // iterative solvers; command line overrides
-  set_default_option("-mat_mumps_icntl_7", "3");    // SCOTCH: half the operations of the default ordering
-  set_default_option("-mat_mumps_icntl_14", "60");  // room for pivoting, per cent
-  set_default_option("-mat_mumps_icntl_13", "1");   // the root front on one rank: a singular matrix is told as such
+  set_factorization_defaults();
 }
 
 void ImplicitLinearSolver::set_near_null_space(const Analysis& analysis) {

@@ -9,6 +9,10 @@
 
 namespace balocco {
 
+/// MUMPS's options where the command line does not say them: a good ordering, room for pivoting, and the root front on one rank,
+/// so that singular matrices and numbers of negative pivots are told.
+void set_factorization_defaults();
+
 class ImplicitLinearSolver {
  public:
   /// `matrix` keeps its pattern, so that the symbolic factorisation is made once. A matrix that is symmetric to round-off

@@ -94,7 +94,7 @@ def hanging(gravity):
     deck.elements["MASS"] = [(1, [2])]
     deck.add("*ELEMENT, TYPE=ROTARYI, ELSET=TURNING\n2, 1\n*ROTARY INERTIA, ELSET=TURNING\n0.5, 0.7, 0.2")
     deck.add("*NSET, NSET=BOB\n2\n*MASS, ELSET=ALL\n3.\n*RIGID BODY, REF NODE=1, PIN NSET=BOB")
-    deck.add("*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n1, 1, 3\n1, 6, 6\n*DLOAD\nALL, GRAV, %g, 0., 0., -1.\n" % gravity + OUTPUT + "*END STEP")
+    deck.add("*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n1, 1, 3\n1, 6, 6\n*DLOAD\nALL, GRAV, %g, 0., 0., -1.\n" % gravity + "*END STEP")
     deck.add(MODES % ("", "2", ""))
     return deck
 

@@ -65,8 +65,8 @@ def then_finite(runner):
     ends = []
     for name, first in (("linear_first", ""), ("finite", ", NLGEOM")):
         deck = bent("C3D8R")
-        deck.add(STEP % (first, ROOT + "*CLOAD\n9001, 3, 500."))
-        deck.add(STEP % (", NLGEOM", "*CLOAD\n9001, 3, 600."))
+        deck.add(STEP % (first, ROOT + "*CLOAD\n9001, 3, 50."))
+        deck.add(STEP % (", NLGEOM", "*CLOAD\n9001, 3, 60."))
         results = runner.run_alike(name, deck)
         ends.append((results.node("U", 2), results.element("C3D8R", "S", 2)))
     for first, second, what in zip(*ends, ("U", "S")):
