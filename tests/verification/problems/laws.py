@@ -2,7 +2,7 @@
 import math
 
 import numpy as np
-from meshes import FIELDS, SOLIDS, TURNING, Mesh, block, elastic, halves, line, middle, sheet
+from meshes import FIELDS, SOLIDS, TURNING, block, elastic, line, middle, patchwork, sheet
 from verification import problem
 
 RUBBERS = {
@@ -53,24 +53,14 @@ def hencky(session, kind, n):
 
 def octant(kind, n):
     """An eighth of the unit sphere as three patches of quadrilaterals that meet on its diagonal."""
-    mesh, found = Mesh(kind), {}
+    def patch(corner):
+        def place(r, s):
+            point = np.zeros(3)
+            point[corner], point[(corner + 1) % 3], point[(corner + 2) % 3] = 1.0, math.tan(0.25 * math.pi * r), math.tan(0.25 * math.pi * s)
+            return tuple(point / np.linalg.norm(point))
+        return place
 
-    def node(corner, r, s):
-        place = np.zeros(3)
-        place[corner], place[(corner + 1) % 3], place[(corner + 2) % 3] = 1.0, math.tan(0.25 * math.pi * r), math.tan(0.25 * math.pi * s)
-        place /= np.linalg.norm(place)
-        key = tuple(np.round(place, 9))
-        if key not in found:
-            found[key] = mesh.node(place, key)
-        return found[key]
-
-    for corner in range(3):
-        for i in range(n):
-            for j in range(n):
-                ring = [node(corner, a / n, b / n) for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
-                for face in [ring] if kind not in ("M3D3", "S3R") else halves(ring, i + j):
-                    mesh.element(face)
-    return mesh
+    return patchwork(kind, [patch(corner) for corner in range(3)], n)
 
 
 @problem("BALLOON", "neo-Hookean spherical membrane blown up, t0 / r0 = 0.01; an eighth", "p r0 / 4 C10 t0 = (1 - 1 / l^6) / l",

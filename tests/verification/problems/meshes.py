@@ -115,6 +115,51 @@ def halves(ring, parity):
     return ([a, b, c], [a, c, d]) if parity % 2 == 0 else ([a, b, d], [b, c, d])
 
 
+def patchwork(kind, patches, n, heights=None):
+    """Patches of n x n quadrilaterals, each placed by a function of (r, s), joined where their nodes coincide; columns of bricks over
+    them where `heights` are given, nodes then being asked for by the parameter t alone."""
+    mesh, found = Mesh(kind), {}
+
+    def node(place, t):
+        key = tuple(np.round(place, 9))
+        if key not in found:
+            found[key] = mesh.node(place, (*key[:2], t))
+        return found[key]
+
+    levels = [None] if heights is None else list(enumerate(heights))
+    for patch in patches:
+        for i in range(n):
+            for j in range(n):
+                ring = [patch(a / n, b / n) for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
+                faces = [ring] if kind not in ("M3D3", "S3R", "C3D6") else halves(ring, i + j)
+                for face in faces:
+                    if heights is None:
+                        mesh.element([node(p, 0.0) for p in face])
+                        continue
+                    for (k, low), (_, high) in zip(levels[:-1], levels[1:]):
+                        top = (len(heights) - 1.0)
+                        mesh.element([node((*p[:2], low), k / top) for p in face] + [node((*p[:2], high), (k + 1) / top) for p in face])
+    return mesh
+
+
+def quarter_disc(radius):
+    """A quarter of a disc as three patches, none of them with a corner flatter than 120 degrees."""
+    middle = 0.45 * radius
+
+    def core(r, s):
+        return middle * r * (1.0 + 0.15 * (1.0 - s)), middle * s * (1.0 + 0.15 * (1.0 - r)), 0.0
+
+    def rim(first):
+        def place(r, s):
+            inner = core(1.0, s) if first else core(1.0 - s, 1.0)
+            turned = 0.25 * math.pi * (s if first else 1.0 + s)
+            outer = (radius * math.cos(turned), radius * math.sin(turned), 0.0)
+            return tuple((1.0 - r) * a + r * b for a, b in zip(inner, outer))
+        return place
+
+    return core, rim(True), rim(False)
+
+
 def sheet(kind, counts, place, thickness, spread=None, layers=1):
     """A sheet about the middle surface place(r, s): shells, membranes, or solids in layers along the normals."""
     if kind in SOLIDS:
