@@ -31,8 +31,8 @@ Matrix3<T> constant(const Matrix3<double>& matrix) {
   return result;
 }
 
-/// Stiffness of a stiff spring over that of the pair: under a pressure p the penetration is then p h / (5 M).
-constexpr double stiff_factor = 10.0;
+/// Stiffness of a stiff spring over that of the pair: under a pressure p the penetration is then p h / (10 M).
+constexpr double stiff_factor = 20.0;
 
 InputError refused(const Model& model, const ContactPair& pair, const std::string& what) {
   return InputError(fmt::format("{}: error: *CONTACT PAIR: {}", model.where(pair.location), what));
