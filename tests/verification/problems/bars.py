@@ -189,8 +189,8 @@ def elastica(session, kind, n):
 
 
 @problem("ROLLUP", "the same strip rolled into a circle by the moment 2 pi EI / L on its end", "closed form; Code_Aster V6.04.138",
-         {"u/L": (-1.0, 0.005), "w/L": (0.0, 0.005)}, {kind: (10, 20) for kind in ("S4", "S4R", "S3R", "B31")},
-         lambda n: "%d x 1" % n)
+         {"u/L": (-1.0, 0.005), "w/L": (0.0, 0.005)}, {kind: (20, 40) for kind in ("S4", "S4R", "S3R", "B31")},
+         lambda n: "%d x 1" % n, {"B31": 0.02})
 def rollup(session, kind, n):
     mesh = strip(kind, n)
     moment = 2.0 * math.pi * 1.2e6 * 0.1**3 / 12.0 / 10.0

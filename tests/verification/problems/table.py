@@ -112,8 +112,10 @@ def element_tables(session, kinds, report):
 
 def measure(session, chosen, kind, n):
     session.seconds = 0.0
-    got = chosen.solve(session, kind, n)
-    return got, session.seconds
+    try:
+        return chosen.solve(session, kind, n), session.seconds
+    except KeyError as missing:
+        raise Refused("the results lack %s" % missing)
 
 
 def quick(session, chosen):

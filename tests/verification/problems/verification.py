@@ -10,8 +10,11 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from static_model import Results  # noqa: E402
 
 
+LONGEST = 120.0  # seconds of one run
+
+
 class Refused(Exception):
-    """The program left with an error: its first message."""
+    """The program left with an error, its first message; or its results lack what was asked for."""
 
 
 class Session:
@@ -33,12 +36,15 @@ class Session:
         if ranks > 1:
             command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] + command
         start = time.time()
-        done = subprocess.run(command, capture_output=True, text=True, timeout=900)
+        try:
+            done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST)
+        except subprocess.TimeoutExpired:
+            raise Refused("stopped after %g s" % LONGEST)
         self.seconds += time.time() - start
         if done.returncode != 0:
             said = (done.stdout + done.stderr).splitlines()
             reasons = [line for line in said if "error:" in line or line.startswith("BALOCCO FAILED")]
-            raise Refused(reasons[0] if reasons else "exit status %d" % done.returncode)
+            raise Refused(reasons[0].replace(self.folder + "/", "") if reasons else "exit status %d" % done.returncode)
         results = Results(base + ".h5")
         results.log = open(base + ".log").read()
         return results
