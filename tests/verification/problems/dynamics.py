@@ -94,7 +94,8 @@ def rods(session, kind, n):
 
 
 @problem("TRUSS", "rod of length 2, area 0.2 at 1.5 m/s against a rigid wall 1 mm away", "Abaqus Benchmarks, truss impact",
-         {"time of impact, ms": (0.6667, 0.01), "mean force, MN": (11.85, 0.03), "duration, ms": (0.790, 0.05), "impulse, Ns": (9360.0, 0.01)},
+         {"time of impact, ms": (0.6667, 0.01), "mean force, MN": (11.85, 0.03), "duration, ms": (0.790, 0.05),
+          "impulse, Ns": (9360.0, 0.01)},
          {"T3D2": (20, 40, 80)}, str, {"T3D2": 0.05})
 def truss(session, kind, n):
     time, force, _ = impact(session, "truss", n, 2.0, 0.2, 1.5, 1e-3, 2e-3)
@@ -157,7 +158,8 @@ def momentum(time, spin):
 
 
 @problem("SKID", "ring of radius 0.1 skids at 10 m/s on mu 0.4 until it rolls: hoop and disc", "v0 / (1 + I / m r^2)",
-         {"hoop's speed": (5.0, 0.01), "hoop's time, s": (1.27421, 0.01), "disc's speed": (6.66667, 0.01), "disc's time, s": (0.84947, 0.01)},
+         {"hoop's speed": (5.0, 0.01), "hoop's time, s": (1.27421, 0.01),
+          "disc's speed": (6.66667, 0.01), "disc's time, s": (0.84947, 0.01)},
          {"ROTARYI": (1,)}, lambda n: "360 facets")
 def skid(session, kind, n):
     found = {}

@@ -71,16 +71,8 @@ def tapered_membrane(session, kind, n):
     return {"f%d, Hz" % (1 + i): found[i] for i in range(6)}
 
 
-def sector(kind, n, layers, place, system):
-    """A slender sector of a body of revolution, all of whose nodes have axes of the cylindrical or spherical `system`."""
-    mesh = block(kind, (n, 1, layers), place)
-    mesh.section(1.0, STEEL)
-    mesh.sets["EVERY"] = list(mesh.nodes)
-    mesh.add("*TRANSFORM, NSET=EVERY, TYPE=%s\n0., 0., 0., 0., 0., 1." % system)
-    return mesh
-
-
-@problem("FV41", "free cylinder, middle radius 2, t 0.4, L 10: axisymmetric modes by a sector of 5 degrees", "NAFEMS FV41; Altair OS-V 0450",
+@problem("FV41", "free cylinder, middle radius 2, t 0.4, L 10: axisymmetric modes by a sector of 5 degrees",
+         "NAFEMS FV41; Altair OS-V 0450",
          listed((243.53, 377.41, 394.11, 397.72, 405.28), 2, 0.01), {kind: (3, 6) for kind in ("C3D8", "C3D8R")},
          lambda n: "%d x %d" % (n, 10 * n))
 def free_cylinder(session, kind, n):
@@ -88,7 +80,10 @@ def free_cylinder(session, kind, n):
         radius, turned = 1.8 + 0.4 * r, angle(5.0) * (s - 0.5)
         return radius * math.cos(turned), radius * math.sin(turned), 10.0 * t
 
-    mesh = sector(kind, n, 10 * n, place, "C")
+    mesh = block(kind, (n, 1, 10 * n), place)
+    mesh.section(1.0, STEEL)
+    mesh.sets["EVERY"] = list(mesh.nodes)
+    mesh.add("*TRANSFORM, NSET=EVERY, TYPE=C\n0., 0., 0., 0., 0., 1.")
     found = modes(session, "fv41_%s_%d" % (kind, n), mesh, 7, "EVERY, 2\n")
     return {"f%d, Hz" % (2 + i): found[i] for i in range(5)}
 
@@ -101,6 +96,12 @@ def hollow_sphere(session, kind, n):
         ray = np.array([1.0, math.tan(angle(5.0) * (s - 0.5)), math.tan(angle(5.0) * (t - 0.5))])
         return tuple((1.8 + 4.2 * r) * ray / np.linalg.norm(ray))
 
-    mesh = sector(kind, n, 1, place, "S")
-    found = modes(session, "fv42_%s_%d" % (kind, n), mesh, 5, "EVERY, 2, 3\n")
+    mesh, held = block(kind, (n, 1, 1), place), ""
+    mesh.section(1.0, STEEL)
+    for name, s, t in (("A", 0.0, 0.0), ("B", 1.0, 0.0), ("C", 0.0, 1.0), ("D", 1.0, 1.0)):
+        ray = place(1.0, s, t)
+        mesh.sets[name] = mesh.at(s=s, t=t)
+        mesh.add("*TRANSFORM, NSET=%s, TYPE=R\n%.17g, %.17g, %.17g, %.17g, %.17g, 0." % (name, *ray, -ray[1], ray[0]))
+        held += "%s, 2, 3\n" % name
+    found = modes(session, "fv42_%s_%d" % (kind, n), mesh, 5, held)
     return {"f%d, Hz" % (1 + i): found[i] for i in range(5)}

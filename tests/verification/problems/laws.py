@@ -56,7 +56,8 @@ def octant(kind, n):
     def patch(corner):
         def place(r, s):
             point = np.zeros(3)
-            point[corner], point[(corner + 1) % 3], point[(corner + 2) % 3] = 1.0, math.tan(0.25 * math.pi * r), math.tan(0.25 * math.pi * s)
+            point[corner] = 1.0
+            point[(corner + 1) % 3], point[(corner + 2) % 3] = math.tan(0.25 * math.pi * r), math.tan(0.25 * math.pi * s)
             return tuple(point / np.linalg.norm(point))
         return place
 

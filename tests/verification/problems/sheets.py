@@ -9,7 +9,7 @@ FLAT = ("C3D8", "C3D8R", "M3D4", "M3D4R", "S4", "S4R", "S3R")
 CURVED = ("C3D8R", "S4", "S4R", "S3R")
 THIN = "bricks of this slenderness need finer meshes: their faces' shear and membrane strains lock on a curved sheet"
 GRADED = "D is where the stress is steepest, and an extrapolation from the middles of elements: first order; finer meshes reach it"
-TRIANGLE = "a triangle whose membrane strain is constant, in a mesh of two directions of diagonals: converges with order two, from the stiff side"
+TRIANGLE = "a triangle of constant membrane strain: converges with order two, from the stiff side"
 
 
 def flat(mesh):

@@ -1,9 +1,11 @@
 #!/usr/bin/python3
-"""table.py PROGRAM FOLDER [--quick] [--only NAME] [--element TYPE] [--write FILE]: runs the problems; prints or writes the table.
+"""table.py PROGRAM FOLDER [--quick] [--only NAME] [--element TYPE] [--jobs N] [--write FILE]: runs the problems, prints or writes
+their table.
 
 --quick runs the subset that the problems name, on their coarsest meshes, and fails where an error exceeds what is allowed there.
 """
 import argparse
+import concurrent.futures
 import sys
 
 import bars  # noqa: F401
@@ -19,7 +21,8 @@ from verification import PROBLEMS, Refused, Session, rate, relative_error
 HEAD = """# What the problems with known answers gave
 
 Written by `bash tests/verification/results.sh` from runs of the program; the problems are in `problems/`. The seconds are those of
-all runs behind a line, on one rank. Order: of convergence from one mesh to the next; none where errors are round-off or change their sign.
+all runs behind a line, two at a time on two cores, each on one rank.
+Order: of convergence from one mesh to the next; none where errors are round-off or change their sign.
 A target that the finest mesh misses by more than its tolerance is marked, with the reason.
 """
 TABLE = """
@@ -39,13 +42,12 @@ class Report:
     def __init__(self):
         self.lines, self.missed, self.refused, self.reached = [], [], [], 0
 
-    def problem(self, chosen, kinds, session):
+    def problem(self, chosen, outcomes):
+        """`outcomes`: element -> what attempt() found."""
         self.lines.append("\n### %s: %s\n\nTarget: %s.\n%s" % (chosen.name, chosen.title, chosen.source, TABLE.rstrip("\n")))
-        for kind in kinds:
-            try:
-                found = [measure(session, chosen, kind, n) for n in chosen.meshes[kind]]
-            except Refused as reason:
-                self.refused.append("%s by %s: %s" % (chosen.name, kind, reason))
+        for kind, found in outcomes.items():
+            if isinstance(found, Refused):
+                self.refused.append("%s by %s: %s" % (chosen.name, kind, found))
                 continue
             for quantity, target in chosen.targets.items():
                 self.quantity(chosen, kind, quantity, target, found)
@@ -74,8 +76,8 @@ ELEMENTS_HEAD = """
 ## What holds for every element
 
 Patch: largest distance of inner nodes of an irregular mesh from a motion of constant strain, or of constant curvature, that is given at
-the outer nodes, over the largest displacement. Rotated: largest stress over Young's modulus after a turn by 120 degrees about a slanted axis.
-Zero modes of one skewed element, and how many there must be.
+the outer nodes, over the largest displacement. Rotated: largest stress over Young's modulus after a turn by 120 degrees about a
+slanted axis. Zero modes of one skewed element, and how many there must be.
 
 | element | stretched | bent | rotated | zero modes | must be |
 |---|---|---|---|---|---|
@@ -91,23 +93,26 @@ displacement. Then the load grows by a tenth, dynamically, and a static step tak
 """
 
 
-def element_tables(session, kinds, report):
-    """Two tables: elements, and elements with laws."""
-    text = ELEMENTS_HEAD
+def element_tables(rows, imports, report):
+    """Two tables: elements, and elements with laws; each row a future."""
     number = lambda value: "" if value is None else "%.0e" % value if isinstance(value, float) else str(value)
-    for kind in kinds:
-        try:
-            text += "| %s | %s |\n" % (kind, " | ".join(number(v) for v in elements.element_row(session, kind)))
-        except Refused as reason:
-            report.refused.append("%s: %s" % (kind, reason))
-    text += IMPORT_HEAD
-    for kind in kinds:
-        for law in elements.LAWS:
+    text = ""
+    for head, table in ((ELEMENTS_HEAD, rows), (IMPORT_HEAD, imports)):
+        text += head
+        for names, row in table.items():
             try:
-                text += "| %s | %s | %s |\n" % (kind, law, " | ".join(number(v) for v in elements.import_row(session, kind, law)))
+                text += "| %s | %s |\n" % (" | ".join(names), " | ".join(number(v) for v in row.result()))
             except Refused as reason:
-                report.refused.append("%s with %s: %s" % (kind, law, reason))
+                report.refused.append("%s: %s" % (" with ".join(names), reason))
     return text
+
+
+def attempt(session, chosen, kind):
+    """Values and seconds on each mesh of an element, or why there are none."""
+    try:
+        return [measure(session, chosen, kind, n) for n in chosen.meshes[kind]]
+    except Refused as reason:
+        return reason
 
 
 def measure(session, chosen, kind, n):
@@ -139,19 +144,30 @@ def main():
     parser.add_argument("--quick", action="store_true")
     parser.add_argument("--only", help="part of a problem's name")
     parser.add_argument("--element")
+    parser.add_argument("--jobs", type=int, default=1, help="runs at the same time")
     parser.add_argument("--write", help="the file of the whole table")
     options = parser.parse_args()
-    session, report = Session(options.program, options.folder), Report()
+    new_session = lambda: Session(options.program, options.folder)
     chosen = [p for p in PROBLEMS if options.only is None or options.only in p.name]
     if options.quick:
-        return 0 if all([quick(session, p) for p in chosen]) else 1
-    for p in chosen:
-        before = len(report.lines)
-        report.problem(p, [k for k in p.meshes if options.element in (None, k)], session)
-        print("\n".join(report.lines[before:]), flush=True)
+        return 0 if all([quick(new_session(), p) for p in chosen]) else 1
+    report = Report()
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        found = {p.name: {kind: pool.submit(attempt, new_session(), p, kind) for kind in p.meshes if options.element in (None, kind)}
+                 for p in chosen}
+        rows, imports = {}, {}
+        if options.write:
+            for kind in elements.KINDS:
+                rows[kind,] = pool.submit(elements.element_row, new_session(), kind)
+                for law in elements.LAWS:
+                    imports[kind, law] = pool.submit(elements.import_row, new_session(), kind, law)
+        for p in chosen:
+            before = len(report.lines)
+            report.problem(p, {kind: future.result() for kind, future in found[p.name].items()})
+            print("\n".join(report.lines[before:]), flush=True)
+        tables = element_tables(rows, imports, report)
     print(report.summary() + "".join("missed: %s\n" % m for m in report.missed))
     if options.write:
-        tables = element_tables(session, elements.KINDS, report)
         with open(options.write, "w") as out:
             out.write(HEAD + report.summary() + tables + "\n## Problems\n" + "\n".join(report.lines) + "\n")
     return 0

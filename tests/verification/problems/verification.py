@@ -10,7 +10,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 from static_model import Results  # noqa: E402
 
 
-LONGEST = 120.0  # seconds of one run
+LONGEST = 90.0  # seconds of one run
 
 
 class Refused(Exception):
