@@ -99,8 +99,20 @@ std::vector<EigenPair> Eigenmodes::nearest(double shift, int number) {
   return pairs;
 }
 
+/// Rigid motions, right beside a small shift, dwarf the others in the inverse and cost them digits: then once more from a shift
+/// that lies well below all of them, but not far in comparison with the first that deforms.
+std::vector<EigenPair> Eigenmodes::find(EigenRange range) {
+  auto pairs = search(range);
+  const double rigid = 10.0 * std::abs(range.shift);
+  const auto first = std::ranges::find_if(pairs, [&](const auto& pair) { return pair.value > 1e3 * rigid; });
+  const bool has_rigid = std::ranges::any_of(pairs, [&](const auto& pair) { return std::abs(pair.value) < rigid; });
+  if (!has_rigid || first == pairs.end()) return pairs;
+  range.shift = -0.1 * first->value;
+  return search(range);
+}
+
 /// The nearest pairs on both sides of the shift are found; more of them until those wanted are among them.
-std::vector<EigenPair> Eigenmodes::find(const EigenRange& range) {
+std::vector<EigenPair> Eigenmodes::search(const EigenRange& range) {
   PetscInt equations = 0;
   petsc(MatGetSize(stiffness_, &equations, nullptr));
   const int below = count_below(range.shift);

@@ -30,11 +30,12 @@ class Eigenmodes {
   /// Eigenvalues below `value`, which is none itself. @throws AnalysisError if the factorisation fails. Collective.
   int count_below(double value);
   /// The pairs in the range, in rising order: all negative ones that are, too. @throws AnalysisError. Collective.
-  std::vector<EigenPair> find(const EigenRange& range);
+  std::vector<EigenPair> find(EigenRange range);
   /// A value near zero against all that counts, and below the zeros of rigid motions. Collective.
   double small_shift() const;
 
  private:
+  std::vector<EigenPair> search(const EigenRange& range);
   std::vector<EigenPair> nearest(double shift, int number);
 
   Mat stiffness_, mass_;
