@@ -45,14 +45,23 @@ Progress ExplicitStep::progress() const {
   return progress;
 }
 
+/// The increments that land on the end of the step are shorter than those before: what the longer ones conserved is told once more
+/// before the first of them, because near the limit of stability a change of increment changes it.
+bool ExplicitStep::lands() const {
+  const double remaining = step_.duration() - analysis_.current.step_time;
+  return next_increment_ >= (0.5 - 1e-9) * remaining && next_increment_ < (1.0 - 1e-6) * last_increment_ && !finished();
+}
+
 bool ExplicitStep::observe() {
-  if (!attention_ && !finished()) return true;
+  const bool landing = lands();
+  if (!attention_ && !finished() && !landing) return true;
   report_failure();
   fill_output();
-  if (analysis_.current.increment % regular_increments == 0 || finished()) {
+  if (analysis_.current.increment % regular_increments == 0 || landing || (finished() && !checked_before_landing_))
     check_energy_balance();
-    contact_.report_past_end(analysis_, observer_);
-  }
+  checked_before_landing_ = checked_before_landing_ || landing;
+  if (!attention_ && !finished()) return true;
+  contact_.report_past_end(analysis_, observer_);
   bool go_on = true;
   timers.measure(Phase::output, [&] { go_on = observer_.advanced(analysis_, progress()); });
   return go_on;
@@ -64,20 +73,21 @@ void ExplicitStep::start_energy_balance() {
   analysis_.current.largest_energy = energies.magnitude();
 }
 
+/// Created energy: kinetic + internal energy less the work done, so that dissipation, whose books are kept per increment and can
+/// overstate it near a shock, excuses nothing.
 void ExplicitStep::check_energy_balance() {
   auto& state = analysis_.current;
   EnergyBalance energies;
   timers.measure(Phase::output, [&] { energies = analysis_.energies(); });
   state.largest_energy = std::max(state.largest_energy, energies.magnitude());
-  const double error = energies.total - state.energy_at_start;
-  const double limit = procedure_.energy_error_limit;
-  if (std::abs(error) <= limit * state.largest_energy) return;
+  const double created = energies.total - energies.viscous - energies.friction - state.energy_at_start;
+  if (created <= procedure_.energy_error_limit * state.largest_energy) return;
   throw AnalysisError(fmt::format(
-      "step {}, increment {}, time {:.6g}: the energy balance is lost: ETOTAL has changed by {:.4g}, {:.3g} % of the "
-      "largest energy of the step ({:.4g}; kinetic {:.4g}, internal {:.4g}, work {:.4g}); reduce the time increment "
-      "(SCALE FACTOR), or allow more with *DYNAMIC, EXPLICIT, ENERGY ERROR={:.3g}",
-      step_.name, state.increment, state.total_time, error, 100.0 * error / state.largest_energy, state.largest_energy,
-      energies.kinetic, energies.internal, energies.work, 200.0 * std::abs(error) / state.largest_energy));
+      "step {}, increment {}, time {:.6g}: the energy balance is lost: {:.4g} has been created, {:.3g} % of the largest "
+      "energy of the step ({:.4g}; kinetic {:.4g}, internal {:.4g}, work {:.4g}); reduce the time increment (SCALE "
+      "FACTOR), or allow more with *DYNAMIC, EXPLICIT, ENERGY ERROR={:.3g}",
+      step_.name, state.increment, state.total_time, created, 100.0 * created / state.largest_energy, state.largest_energy,
+      energies.kinetic, energies.internal, energies.work, 200.0 * created / state.largest_energy));
 }
 
 void ExplicitStep::log_balance() {

@@ -74,6 +74,7 @@ class ExplicitStep {
   void report_failure();
   /// @throws AnalysisError where energy came from nowhere or went nowhere. Collective.
   void check_energy_balance();
+  bool lands() const;
   [[noreturn]] void report_collapse();
   Progress progress() const;
 
@@ -102,6 +103,7 @@ class ExplicitStep {
   std::vector<Point> moments_;                                  // external, per rigid body
   LocalStability stability_;
   double next_increment_ = 0.0, last_increment_ = 0.0;
+  bool checked_before_landing_ = false;  // the energy balance
   bool attention_ = true;               // the observer looks at this increment, and always at the start
   std::int64_t cycles_ = 0;             // computed by this run, which may have been restarted in mid-step
   std::optional<std::string> failure_;  // found by this rank, told to all in the next agreement

@@ -12,6 +12,9 @@ constexpr std::int64_t increments_between_raises = 100;
 constexpr double least_raise = 1.02, largest_raise = 1.25;  // a smaller one is not worth a change
 constexpr double no_limit = 1e299;      // a model without elements has no stable increment
 constexpr double increments_without_limit = 1000.0;
+// At the very limit the highest mode of a uniform mesh grows with time, and slightly below it any disturbance is magnified by
+// 1 / (1 - (omega dt / 2)^2).
+constexpr double below_limit = 0.95;
 constexpr double landing_tolerance = 1e-9;  // of an increment: rounding of accumulated times
 }  // namespace
 
@@ -26,7 +29,7 @@ double combined_limit(double stable, double contact_frequency_squared, const Res
 }
 
 double TimeControl::automatic(State& state, double previous, double stable) const {
-  const double now = stable < no_limit ? scale_factor_ * stable : duration_ / increments_without_limit;
+  const double now = stable < no_limit ? below_limit * scale_factor_ * stable : duration_ / increments_without_limit;
   if (previous == 0.0) state.least_stable = now;
   state.least_stable = std::min(state.least_stable, now);
   double increment = previous > 0.0 ? std::min(previous, now) : now;
