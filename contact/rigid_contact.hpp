@@ -61,6 +61,7 @@ class RigidContact {
   std::span<const std::int32_t> nodes() const { return nodes_; }  // local slave nodes
   std::int32_t master_body() const { return master_body_; }       // row of Model::rigid_bodies
   double area(std::int32_t point) const { return area_[point]; }
+  bool rubs() const { return friction_ > 0.0; }
   double normal_stiffness(std::int32_t point) const { return stiffness_[point]; }
 
   /// At the start of a step: points of a pair that is not `active` open, and open points stand over the surface where

@@ -18,6 +18,10 @@ ExplicitContact::ExplicitContact(const Analysis& analysis, const Step& step, con
               .master = bodies.yielding(static_cast<std::size_t>(contact.master_body())),
               .freedom = std::vector<SlaveFreedom>(static_cast<std::size_t>(contact.size())),
               .stiff = {}};
+    // Rubbing points keep the spring of the surfaces, on whose stretch friction counts; single nodes stand for no face whose
+    // pressure would ask for a harder one.
+    const bool hard = !contact.rubs() &&
+                      analysis.model.surfaces[analysis.model.contact_pairs[row].slave].kind == Surface::Kind::element_faces;
     for (std::int32_t point = 0; point < contact.size(); ++point) {
       auto& freedom = pair.freedom[point];
       freedom.inverse_mass = inverse_mass[contact.nodes()[point]];
@@ -26,7 +30,7 @@ ExplicitContact::ExplicitContact(const Analysis& analysis, const Step& step, con
         freedom.direction[freedom.held] = constraint.direction;
         held_.push_back({pairs_.size(), static_cast<std::size_t>(point), freedom.held++, &constraint});
       }
-      pair.stiff.push_back(!pair.master.yields() && freedom.yields());
+      pair.stiff.push_back(hard && !pair.master.yields() && freedom.yields());
     }
     contact.add_spring_stiffness(pair.stiff, stiffness);
     free_masters_ = free_masters_ || pair.master.yields();
