@@ -52,7 +52,7 @@ void build_mesh(Builder& builder, const std::vector<Task>& tasks) {
     waiting.clear();
     for (const Task* task : again) attempt(*task);
   }
-  builder.first_pass = false;
+  builder.first_pass = builder.put_off = false;
   for (const Task* task : waiting) run_task(builder, *task);
   builder.normalize_sets();
 }

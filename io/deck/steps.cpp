@@ -133,9 +133,10 @@ void end_step(Builder& builder, const Block& block) {
   }
   Step& step = current(builder);
   if (builder.draft.has_procedure && builder.draft.amplitude == (step.ramps_loads() ? "STEP" : "RAMP")) {
-    builder.error(block, builder.draft.location,
-                  fmt::format("AMPLITUDE={}: {}; leave it out and give the loads an *AMPLITUDE", builder.draft.amplitude,
-                              step.ramps_loads() ? "loads of a static step grow linearly over it" : "loads of an explicit step act at once"));
+    builder.diagnostics.error(
+        builder.draft.location, "STEP",
+        fmt::format("AMPLITUDE={}: {}; leave it out and give the loads an *AMPLITUDE", builder.draft.amplitude,
+                    step.ramps_loads() ? "loads of a static step grow linearly over it" : "loads of an explicit step act at once"));
   }
   if (builder.draft.perturbation && !step.is_perturbation())
     builder.error(block, builder.draft.location,

@@ -114,8 +114,8 @@ void split(std::string_view line, std::vector<std::string_view>& fields) {
 std::string nearest(std::string_view word, const std::vector<std::string>& candidates) {
   const std::string squeezed = squeeze(word);
   std::string best;
-  // One slip in a word, two in a long one: beyond that another word is meant, and no guess is better than a wrong one.
-  std::size_t best_distance = (squeezed.size() < 4 ? 0 : squeezed.size() < 9 ? 1 : 2) + 1;
+  // One slip in a word of five letters, two in a long one: beyond that another word is meant, and no guess is better than a wrong one.
+  std::size_t best_distance = (squeezed.size() < 5 ? 0 : squeezed.size() < 9 ? 1 : 2) + 1;
   for (const auto& candidate : candidates) {
     const std::string other = squeeze(candidate);
     const std::size_t distance = edit_distance(squeezed, other);

@@ -53,6 +53,7 @@ Model block(std::int32_t n) {
     }
   }
   model.elements = {bricks, skin};
+  model.sections.resize(3);
   RigidBody body;
   body.reference_node = model.nodes.size() - 1;
   model.rigid_bodies.push_back(body);
