@@ -343,6 +343,11 @@ void Checker::check_loads(const Step& step) {
 
 void Checker::check_boundary(const Step& step) {
   for (const auto& condition : step.boundary) {
+    if (step.is_perturbation() && !condition.propagated && condition.magnitude != 0.0)
+      error({condition.file, condition.line},
+            fmt::format("*BOUNDARY: node {}: modes move nothing by a given amount; give 0 in a frequency step, or move the node in a "
+                        "step before",
+                        model_.node_name(condition.node)));
     const std::int32_t body = carrier_[condition.node];
     if (body < 0) continue;
     error({condition.file, condition.line},
