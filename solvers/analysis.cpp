@@ -8,6 +8,7 @@
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
 #include "explicit_scale.hpp"
+#include "loads/body_load.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -169,33 +170,44 @@ void Analysis::sum_rotary_inertia() {
   }
 }
 
-const std::vector<double>& Analysis::partial_mass(std::int32_t element_set) const {
-  auto [entry, is_new] = partial_mass_.try_emplace(element_set, domain.size(), 0.0);
-  auto& mass = entry->second;
-  if (!is_new) return mass;
+const std::vector<double>& Analysis::loaded_share(const BodyLoad& load) const {
+  const bool by_mass = acts_on_mass(load);
+  auto [entry, is_new] = loaded_share_.try_emplace({load.element_set, by_mass}, domain.size(), 0.0);
+  auto& whole = entry->second;
+  if (!is_new) return whole;
   const auto contains = [&](ElementRef element) {
-    if (element_set < 0) return true;
-    const auto& elements = model.element_sets[element_set].elements;
+    if (load.element_set < 0) return true;
+    const auto& elements = model.element_sets[load.element_set].elements;
     return std::binary_search(elements.begin(), elements.end(), element);
   };
-  // Whole masses on the owners: a weight is rounded once, so that it does not depend on how ranks share a node.
   std::vector<double> share, sums(4 * (domain.size() + 1), 0.0);
-  for (const auto& group : element_groups) {
-    share.resize(group->nodes_per_element());
-    for (std::int32_t e = 0; e < group->size(); ++e) {
-      if (!contains({group->table(), group->row(e)})) continue;
-      group->lumped_mass(e, share);
-      for (std::size_t i = 0; i < share.size(); ++i) sums[4 * group->nodes(e)[i]] += rounded(share[i], mass_constant_);
+  const auto for_each_share = [&](auto visit) {
+    for (const auto& group : element_groups) {
+      share.resize(group->nodes_per_element());
+      for (std::int32_t e = 0; e < group->size(); ++e) {
+        if (!contains({group->table(), group->row(e)})) continue;
+        by_mass ? group->lumped_mass(e, share) : group->lumped_volume(e, share);
+        for (std::size_t i = 0; i < share.size(); ++i) visit(group->nodes(e)[i], share[i]);
+      }
     }
+  };
+  double constant = mass_constant_;
+  if (!by_mass) {
+    double largest = 0.0;
+    for_each_share([&](std::int32_t, double volume) { largest = std::max(largest, volume); });
+    constant = rounding_constant(64.0 * communicator.maximum(largest));
   }
+  // Whole shares on the owners: a load is rounded once, so that it does not depend on how ranks share a node.
+  for_each_share([&](std::int32_t node, double addend) { sums[4 * node] += rounded(addend, constant); });
   domain.halo->begin_sum(sums.data());
   domain.halo->finish_sum(sums.data());
   for (std::int32_t node = 0; node < domain.size(); ++node)
-    if (domain.owned[node]) mass[node] = sums[4 * node];
-  for_each_point_mass(model, domain, [&](std::int32_t node, double point_mass, ElementRef element) {
-    if (domain.owned[node] && contains(element)) mass[node] += point_mass;
-  });
-  return mass;
+    if (domain.owned[node]) whole[node] = sums[4 * node];
+  if (by_mass)
+    for_each_point_mass(model, domain, [&](std::int32_t node, double point_mass, ElementRef element) {
+      if (domain.owned[node] && contains(element)) whole[node] += point_mass;
+    });
+  return whole;
 }
 
 /// Steps are linear until one has large displacements, needs iterations for contact, for laws that remember or for springs with

@@ -59,9 +59,9 @@ class Analysis : public ResultSource {
   std::int32_t turning_body(std::int32_t local_node) const { return turning_body_[local_node]; }
   /// Body whose reference node is this local node, or -1.
   std::int32_t reference_of(std::int32_t local_node) const { return reference_of_[local_node]; }
-  /// Nodal masses of an element set (-1: all elements) on the nodes that this rank owns, zero elsewhere: what gravity acts on.
-  /// Collective when a set is first asked for.
-  const std::vector<double>& partial_mass(std::int32_t element_set) const;
+  /// What a body load acts on: the nodal mass, or reference volume, of its element set, on the nodes that this rank owns, zero
+  /// elsewhere. Collective when it is first asked for.
+  const std::vector<double>& loaded_share(const BodyLoad& load) const;
   /// Rebuilds carrier() and tells the groups which elements act, from the state: after attachments, and after a checkpoint was
   /// read.
   void index_rigid_nodes();
@@ -107,7 +107,7 @@ class Analysis : public ResultSource {
 
   std::vector<std::int32_t> carrier_, reference_of_, turning_body_;
   double mass_constant_ = 0.0;  // rounds shares of nodal masses
-  mutable std::map<std::int32_t, std::vector<double>> partial_mass_;
+  mutable std::map<std::pair<std::int32_t, bool>, std::vector<double>> loaded_share_;  // by element set, and whether mass
   mutable SampledEnergies sampled_;  // histories, status and checks of one increment share a sample
   mutable std::unique_ptr<SmallStrainOutput> small_strain_;  // made when a linear state is first asked for output
 };

@@ -7,6 +7,7 @@
 #include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
 #include "hilbert.hpp"
+#include "loads/body_load.hpp"
 
 namespace balocco {
 
@@ -69,6 +70,30 @@ double greatest_factor(const Model& model, std::int32_t amplitude) {
   return greatest;
 }
 
+double distance_from_axis(const BodyLoad& load, const Point& place) {
+  Vector3<double> arm{}, axis{};
+  for (int i = 0; i < 3; ++i) {
+    arm[i] = place[i] - load.point[i];
+    axis[i] = load.direction[i];
+  }
+  const auto across = cross(axis, arm);
+  return std::sqrt(dot(across, across));
+}
+
+/// Adds what a body load of magnitude `greatest` can do to each node, alike on all copies of it.
+void add_body_load(const Analysis& analysis, const BodyLoad& load, double greatest, std::vector<double>& largest) {
+  const auto& domain = analysis.domain;
+  double volume = 0.0;
+  if (!acts_on_mass(load)) volume = analysis.communicator.maximum(std::ranges::max(analysis.loaded_share(load)));
+  const double size = model_size(analysis.model);
+  for (std::int32_t node = 0; node < domain.size(); ++node) {
+    double force = greatest * (acts_on_mass(load) ? analysis.nodal_mass[node] : volume);
+    if (load.kind == BodyLoad::Kind::centrifugal)
+      force *= size + distance_from_axis(load, analysis.model.nodes.coordinates[domain.node_row[node]]);
+    largest[node] += force;
+  }
+}
+
 void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& largest, std::vector<double>& moment) {
   const auto greatest = [&](const auto& load) {
     return std::max(std::abs(load.magnitude), std::abs(load.previous)) *
@@ -79,9 +104,7 @@ void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& 
     if (node >= 0 && load.dof < 3) largest[node] += greatest(load);
     if (load.dof >= 3 && node >= 0 && node < analysis.domain.turning) moment[node] += greatest(load);
   }
-  for (const auto& load : step.gravity)
-    for (std::size_t node = 0; node < largest.size(); ++node)
-      largest[node] += greatest(load) * analysis.nodal_mass[node];
+  for (const auto& load : step.body_loads) add_body_load(analysis, load, greatest(load), largest);
 }
 
 void add_restraints(const std::vector<Restraint>& restraints, double reach, double increment, std::vector<double>& largest) {

@@ -124,12 +124,12 @@ void ExplicitStep::find_loaded_nodes() {
     for (std::int32_t face = 0; face < faces.size(); ++face)
       for (const auto node : faces.nodes(face)) loaded[node] = true;
   }
-  for (const auto& load : step_.gravity) {
-    const auto& mass = analysis_.partial_mass(load.element_set);
-    for (std::size_t node = 0; node < mass.size(); ++node)
-      if (mass[node] != 0.0) loaded[node] = true;
+  for (const auto& load : step_.body_loads) {
+    const auto& share = analysis_.loaded_share(load);
+    for (std::size_t node = 0; node < share.size(); ++node)
+      if (share[node] != 0.0) loaded[node] = true;
   }
-  has_loads_ = !step_.concentrated_loads.empty() || !step_.pressures.empty() || !step_.gravity.empty();
+  has_loads_ = !step_.concentrated_loads.empty() || !step_.pressures.empty() || !step_.body_loads.empty();
   if (has_loads_)  // what another rank loads arrives through the halo
     for (const auto& neighbour : analysis_.domain.halo->neighbours())
       for (const auto node : neighbour.nodes) loaded[node] = true;

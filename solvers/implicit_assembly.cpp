@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "implicit_system.hpp"
+#include "loads/body_load.hpp"
 #include "step_driver.hpp"
 
 namespace balocco {
@@ -27,7 +28,7 @@ Step with_initial_loads(const Step& step) {
   };
   reset(initial.concentrated_loads);
   reset(initial.pressures);
-  reset(initial.gravity);
+  reset(initial.body_loads);
   return initial;
 }
 
@@ -45,6 +46,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   if (!everywhere_sound(sound)) return false;
   add_loads(request);
   add_pressure_stiffness(request);
+  add_body_load_stiffness(request);
   add_contact();
   add_stabilization(request);
   exchange_.sum(residual_);
@@ -128,19 +130,40 @@ void ImplicitSystem::add_loads(const AssemblyRequest& request) {
     }
 }
 
+/// Magnitude of a load at the instant that a request asks for.
+template <class Load>
+double ImplicitSystem::magnitude_of(const Load& load, const AssemblyRequest& request) const {
+  if (request.initial_loads) return load.previous;
+  return load_magnitude(analysis_.model, step_, load.previous, load.magnitude, load.amplitude, request.step_time,
+                        request.total_time);
+}
+
 void ImplicitSystem::add_pressure_stiffness(const AssemblyRequest& request) {
   std::array<double, 12> force{};
   std::array<double, 144> derivative{};
   for (const auto& load : step_.pressures) {
     const auto& faces = *analysis_.pressure_faces[load.surface];
-    const double pressure = request.initial_loads
-                                ? load.previous
-                                : load_magnitude(analysis_.model, step_, load.previous, load.magnitude, load.amplitude,
-                                                 request.step_time, request.total_time);
+    const double pressure = magnitude_of(load, request);
     for (std::int32_t face = 0; face < faces.size(); ++face) {
       faces.linearize(face, request.load_stiffness ? -pressure : 0.0, analysis_.current.position.data(), force,
                       derivative);
       stiffness_.add(motions_of(faces.nodes(face)), derivative);
+    }
+  }
+}
+
+/// Centrifugal forces grow with the distance from their axis.
+void ImplicitSystem::add_body_load_stiffness(const AssemblyRequest& request) {
+  if (!request.load_stiffness) return;
+  for (const auto& load : step_.body_loads) {
+    if (load.kind != BodyLoad::Kind::centrifugal) continue;
+    const auto& share = analysis_.loaded_share(load);
+    const auto derivative = body_force_derivative(load, -magnitude_of(load, request), 1.0);
+    for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
+      if (share[node] == 0.0) continue;
+      auto block = derivative.component;
+      for (double& component : block) component *= share[node];
+      stiffness_.add(std::array{map_.motion(node)}, block);
     }
   }
 }

@@ -92,7 +92,10 @@ class ImplicitSystem {
   void add_elements(double increment, bool& sound);
   void add_element(std::size_t group, std::int32_t element, const NodalMotion& motion, bool& sound);
   void add_loads(const AssemblyRequest& request);
+  template <class Load>
+  double magnitude_of(const Load& load, const AssemblyRequest& request) const;
   void add_pressure_stiffness(const AssemblyRequest& request);
+  void add_body_load_stiffness(const AssemblyRequest& request);
   void add_contact();
   void add_contact_point(std::int32_t pair, std::int32_t point);
   void add_stabilization(const AssemblyRequest& request);

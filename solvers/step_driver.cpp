@@ -1,5 +1,7 @@
 #include "step_driver.hpp"
 
+#include "loads/body_load.hpp"
+
 namespace balocco {
 
 double amplitude_factor(const Model& model, const Step& step, std::int32_t amplitude, double step_time, double total_time) {
@@ -41,13 +43,13 @@ void add_concentrated_load(const Analysis& analysis, const ConcentratedLoad& loa
   }
 }
 
-void add_gravity(const Analysis& analysis, const GravityLoad& load, double magnitude, double* force) {
-  const auto& mass = analysis.partial_mass(load.element_set);
-  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
-    const double weight = magnitude * mass[node];
-    if (weight != 0.0)
-      add_rounded(force + 4 * node, {weight * load.direction[0], weight * load.direction[1], weight * load.direction[2]});
-  }
+void add_body_load(const Analysis& analysis, const BodyLoad& load, double magnitude, const double* position, double* force) {
+  const auto& share = analysis.loaded_share(load);
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
+    if (share[node] != 0.0) {
+      const auto addend = body_force(load, magnitude, share[node], position + 4 * node);
+      add_rounded(force + 4 * node, {addend[0], addend[1], addend[2]});
+    }
 }
 
 }  // namespace
@@ -60,7 +62,7 @@ void add_external_forces(const Analysis& analysis, const Step& step, double step
   for (const auto& load : step.concentrated_loads) add_concentrated_load(analysis, load, magnitude_of(load), forces, moments);
   for (const auto& load : step.pressures)
     analysis.pressure_faces[load.surface]->add_forces(magnitude_of(load), position, forces.force);
-  for (const auto& load : step.gravity) add_gravity(analysis, load, magnitude_of(load), forces.force);
+  for (const auto& load : step.body_loads) add_body_load(analysis, load, magnitude_of(load), position, forces.force);
 }
 
 }  // namespace balocco

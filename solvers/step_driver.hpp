@@ -18,7 +18,7 @@ bool has_arrived(const Model& model, const BoundaryCondition& condition);
 double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,
                       double step_time, double total_time);
 
-/// Adds concentrated loads and moments (owners only), pressure and gravity at `step_time` to `forces` (rounded), and moments on
+/// Adds concentrated loads and moments (owners only), pressure and body loads at `step_time` to `forces` (rounded), and moments on
 /// reference nodes to `moments` (per rigid body; every rank computes the same).
 void add_external_forces(const Analysis& analysis, const Step& step, double step_time, double total_time,
                          const double* position, const NodalForces& forces, std::vector<Point>& moments);

@@ -1,11 +1,11 @@
-// *BOUNDARY *CLOAD *DLOAD *DSLOAD.
+// *BOUNDARY *CLOAD.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <map>
 
 #include "deck/builder.hpp"
-#include "deck/geometry.hpp"
+#include "deck/load_magnitude.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
@@ -14,10 +14,6 @@
 namespace balocco::deck {
 
 namespace {
-
-Step& current(Builder& builder) {
-  return builder.model.steps.back();
-}
 
 /// Named conditions and the degrees of freedom (from 0) that they hold.
 const std::map<std::string, std::vector<int>>& named_conditions() {
@@ -30,16 +26,6 @@ const std::map<std::string, std::vector<int>>& named_conditions() {
                                                              {"YASYMM", {0, 2, 4}},
                                                              {"ZASYMM", {0, 1, 5}}};
   return table;
-}
-
-std::optional<std::int32_t> amplitude_of(Builder& builder, const Block& block) {
-  if (!block.has("AMPLITUDE")) return -1;
-  return builder.require(builder.amplitudes, block.value("AMPLITUDE"), block, block.location);
-}
-
-/// With VALUE=ABSOLUTE the amplitude gives the magnitude itself.
-double scaled(const Builder& builder, std::int32_t amplitude, double magnitude) {
-  return builder.absolute_amplitudes.contains(amplitude) ? 1.0 : magnitude;
 }
 
 /// Which nodes have rotations; found out when first asked.
@@ -183,16 +169,6 @@ void read_boundary(Builder& builder, const Block& block) {
   }
 }
 
-/// OP=NEW: loads of earlier steps go to zero, in a static step gradually, as in Abaqus.
-template <class Loads>
-void take_away(const Builder& builder, Loads& loads) {
-  for (auto& load : loads) {
-    if (builder.draft.said_here(load)) continue;
-    load.magnitude = 0.0;
-    load.amplitude = -1;
-  }
-}
-
 void read_concentrated(Builder& builder, const Block& block) {
   auto& loads = current(builder).concentrated_loads;
   auto& index = builder.draft.concentrated_of;
@@ -233,137 +209,6 @@ void read_concentrated(Builder& builder, const Block& block) {
   }
 }
 
-void renew_distributed(Builder& builder, const Block& block) {
-  if (block.value("OP") != "NEW" || builder.draft.distributed_renewed) return;
-  builder.draft.distributed_renewed = true;
-  take_away(builder, current(builder).pressures);
-  take_away(builder, current(builder).gravity);
-}
-
-void set_pressure(Builder& builder, std::int32_t surface, double magnitude, std::int32_t amplitude, Location location) {
-  auto& pressures = current(builder).pressures;
-  auto found = std::find_if(pressures.begin(), pressures.end(),
-                            [&](const PressureLoad& load) { return load.surface == surface; });
-  if (found == pressures.end()) found = pressures.insert(pressures.end(), PressureLoad{surface});
-  found->magnitude = scaled(builder, amplitude, magnitude);
-  found->amplitude = amplitude;
-  found->file = location.file;
-  found->line = location.line;
-  builder.draft.said.insert({location.file, location.line});
-}
-
-void read_surface_load(Builder& builder, const Block& block) {
-  renew_distributed(builder, block);
-  const auto amplitude = amplitude_of(builder, block);
-  if (!amplitude) return;
-  for (const auto& line : block.lines) {
-    Row row(builder, block, line);
-    const auto surface = builder.require(builder.surfaces, row.name(0), block, line.location);
-    const double magnitude = row.real(2, "pressure");
-    row.at_most(3);
-    if (row.ok() && row.name(1) != "P")
-      row.error(fmt::format("load type '{}' is not supported; allowed: P", row.text(1)));
-    if (!row.ok() || !surface) continue;
-    if (builder.model.surfaces[*surface].kind != Surface::Kind::element_faces) {
-      row.error(fmt::format("surface {} has no element faces to press on; use a surface of TYPE=ELEMENT", row.name(0)));
-      continue;
-    }
-    set_pressure(builder, *surface, magnitude, *amplitude, line.location);
-  }
-}
-
-/// Face that Pn or P presses on; P on a membrane or shell acts along its normal, so on the negative side.
-int pressed_face(const ElementType& type, const std::string& label) {
-  if (type.section == Section::Kind::membrane || type.section == Section::Kind::shell) return label == "P" && type.faces.size() > 1 ? 1 : -1;
-  if (type.section != Section::Kind::solid || label.size() != 2) return -1;
-  const int face = label[1] - '1';
-  return face >= 0 && face < static_cast<int>(type.faces.size()) ? face : -1;
-}
-
-/// Surface of the faces that a *DLOAD line presses on, made when first needed.
-std::optional<std::int32_t> pressed_surface(Builder& builder, const Block& block, Row& row) {
-  const std::string label = row.name(1), key = fmt::format("_DLOAD-{}-{}", row.name(0), label);
-  if (const auto known = builder.find(builder.surfaces, key)) return known;
-  std::vector<ElementRef> elements;
-  if (!builder.elements_of(row.text(0), block, row.location(), elements)) return std::nullopt;
-  Surface surface;
-  surface.name = key;
-  surface.location = row.location();
-  for (const auto element : elements) {
-    const ElementType& type = *builder.model.elements[element.table].type;
-    const int face = pressed_face(type, label);
-    if (face < 0) {
-      row.error(fmt::format("element {} of type {} cannot take the load {}; solids take P1 to P6 by face, membranes P",
-                            builder.model.element_name(element), type.name, label));
-      return std::nullopt;
-    }
-    surface.faces.push_back({element, face});
-  }
-  const auto number = static_cast<std::int32_t>(builder.model.surfaces.size());
-  builder.surfaces.rows.emplace(key, number);
-  builder.model.surfaces.push_back(std::move(surface));
-  return number;
-}
-
-void read_gravity(Builder& builder, const Block& block, Row& row, std::int32_t amplitude) {
-  GravityLoad load;
-  load.magnitude = scaled(builder, amplitude, row.real(2, "acceleration"));
-  for (int i = 0; i < 3; ++i) load.direction[i] = row.real_or(3 + i, 0.0, "direction");
-  row.at_most(6);
-  const double length = norm(load.direction);
-  if (row.ok() && !(length > 0.0)) row.error("the direction is missing; give three components");
-  if (!row.ok()) return;
-  for (double& component : load.direction) component /= length;
-  if (row.has(0)) {
-    std::vector<ElementRef> elements;
-    if (!builder.elements_of(row.text(0), block, row.location(), elements)) return;
-    if (parse_integer(row.text(0))) {
-      load.element_set = builder.element_set_row("_DLOAD-" + row.name(0));
-      builder.add_to_element_set(load.element_set, elements[0]);
-      builder.elements_in(load.element_set);
-    } else {
-      load.element_set = *builder.find(builder.element_sets, row.name(0));
-    }
-  }
-  load.amplitude = amplitude;
-  load.file = row.location().file;
-  load.line = row.location().line;
-  builder.draft.said.insert({load.file, load.line});
-  auto& loads = current(builder).gravity;
-  const auto found = std::find_if(loads.begin(), loads.end(), [&](const GravityLoad& other) {
-    return other.element_set == load.element_set && other.direction == load.direction;
-  });
-  if (found == loads.end()) {
-    loads.push_back(load);
-  } else {
-    load.previous = found->previous;
-    *found = load;
-  }
-}
-
-void read_distributed(Builder& builder, const Block& block) {
-  renew_distributed(builder, block);
-  const auto amplitude = amplitude_of(builder, block);
-  if (!amplitude) return;
-  for (const auto& line : block.lines) {
-    Row row(builder, block, line);
-    const std::string label = row.name(1);
-    if (label == "GRAV") {
-      read_gravity(builder, block, row, *amplitude);
-      continue;
-    }
-    const double magnitude = row.real(2, "pressure");
-    row.at_most(3);
-    if (row.ok() && label != "P" && !(label.size() == 2 && label[0] == 'P')) {
-      row.error(fmt::format("load type '{}' is not supported; allowed: P, P1 to P6, GRAV", row.text(1)));
-    }
-    if (!row.ok()) continue;
-    if (const auto surface = pressed_surface(builder, block, row)) {
-      set_pressure(builder, *surface, magnitude, *amplitude, line.location);
-    }
-  }
-}
-
 const RegisterKeyword boundary{
     {"BOUNDARY",
      Phase::history,
@@ -373,10 +218,6 @@ const RegisterKeyword boundary{
      read_boundary}};
 const RegisterKeyword cload{
     {"CLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_concentrated}};
-const RegisterKeyword dload{
-    {"DLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_distributed}};
-const RegisterKeyword dsload{
-    {"DSLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_surface_load}};
 
 }  // namespace
 

@@ -45,7 +45,7 @@ void inherit(Builder& builder, Step& step) {
   for (auto& condition : step.boundary) condition.propagated = true;
   step.concentrated_loads = before.concentrated_loads;
   step.pressures = before.pressures;
-  step.gravity = before.gravity;
+  step.body_loads = before.body_loads;
   step.active_contact_pairs = before.active_contact_pairs;
   step.removed_elements = before.removed_elements;
   step.field_outputs = before.field_outputs;
@@ -60,7 +60,7 @@ void inherit(Builder& builder, Step& step) {
   };
   settle(step.concentrated_loads);
   settle(step.pressures);
-  settle(step.gravity);
+  settle(step.body_loads);
 }
 
 void index_nodes(Builder& builder) {
@@ -300,7 +300,7 @@ const RegisterKeyword step{
     {"STEP",
      Phase::history,
      Place::model,
-     {name("NAME"), optional_choice("NLGEOM", {"YES", "NO"}), integer("INC"), choice("UNSYMM", {"YES", "NO"}),
+     {name("NAME"), optional_choice("NLGEOM", {"YES", "NO"}), integer("INC"), foreign("UNSYMM"),
       foreign("EXTRAPOLATION"), foreign("SOLVER"), foreign("CONVERT SDI"), choice("AMPLITUDE", {"RAMP", "STEP"}), flag("PERTURBATION")},
      begin_step}};
 const RegisterKeyword end{{"END STEP", Phase::history, Place::step, {}, end_step}};

@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "deck/body_loads.hpp"
 #include "deck/writer.hpp"
 
 namespace balocco::deck {
@@ -162,10 +163,9 @@ void Writer::loads(const Step& step) {
     head("*DSLOAD", load.amplitude);
     line("{}, P, {}", quoted(model_.surfaces[load.surface].name), load.magnitude);
   }
-  for (const auto& load : step.gravity) {
+  for (const auto& load : step.body_loads) {
     head("*DLOAD", load.amplitude);
-    line("{}, GRAV, {}, {}, {}, {}", load.element_set < 0 ? "" : quoted(model_.element_sets[load.element_set].name),
-         load.magnitude, load.direction[0], load.direction[1], load.direction[2]);
+    line("{}, {}", load.element_set < 0 ? "" : quoted(model_.element_sets[load.element_set].name), body_load_text(load));
   }
 }
 

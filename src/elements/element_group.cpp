@@ -41,6 +41,12 @@ ElementGroup::ElementGroup(const GroupInput& input)
   set_acting({});
 }
 
+void ElementGroup::lumped_mass(std::int32_t element, std::span<double> mass) const {
+  lumped_volume(element, mass);
+  const double factor = density();
+  for (double& share : mass) share *= factor;
+}
+
 void ElementGroup::set_acting(std::vector<bool> acting) {
   acting_ = std::move(acting);
   if (!acting_.empty()) acting_.resize(padded_size_, acting_.back());

@@ -104,8 +104,10 @@ class ElementGroup {
   void gather_history(std::int32_t element, std::span<const double> group_history, std::span<double> own) const;
   void scatter_history(std::int32_t element, std::span<const double> own, std::span<double> group_history) const;
 
-  /// Lumped mass of each node of an element (unscaled sum = density x reference volume).
-  virtual void lumped_mass(std::int32_t element, std::span<double> mass) const = 0;
+  /// Each node's share of the reference volume of an element, and the density that makes lumped masses of it.
+  virtual void lumped_volume(std::int32_t element, std::span<double> volume) const = 0;
+  virtual double density() const = 0;
+  void lumped_mass(std::int32_t element, std::span<double> mass) const;
 
   /// Lumped rotary inertia of each node, the same about all axes (mass x length^2); asked only where nodes turn.
   virtual void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const;

@@ -9,6 +9,7 @@
 
 #include "elements/element_type.hpp"
 #include "elements/solids/solid_jacobian.hpp"
+#include "loads/body_load.hpp"
 #include "materials/material_option.hpp"
 #include "model/diagnostics.hpp"
 
@@ -360,8 +361,9 @@ void Checker::check_boundary(const Step& step) {
 }
 
 void Checker::check_density(const Step& step) {
-  if (!step.needs_mass() && step.gravity.empty()) return;
-  const auto why = step.needs_mass() ? fmt::format("step {} ({})", step.name, step.procedure_name()) : "gravity";
+  const bool loads_mass = std::ranges::any_of(step.body_loads, acts_on_mass);
+  if (!step.needs_mass() && !loads_mass) return;
+  const auto why = step.needs_mass() ? fmt::format("step {} ({})", step.name, step.procedure_name()) : "a load on mass (GRAV, CENTRIF)";
   const auto need = [&](std::int32_t material) {
     if (material < 0 || model_.materials[material].density > 0.0) return;
     error(model_.materials[material].location,

@@ -45,12 +45,18 @@ struct PressureLoad {
   std::int32_t file = -1, line = 0;
 };
 
-/// Gravity on an element set (-1: the whole model): acceleration `magnitude` along `direction` (unit).
-struct GravityLoad {
+/// A force on all matter of an element set (-1: the whole model).
+struct BodyLoad {
+  enum class Kind {
+    gravity,      // acceleration `magnitude` along `direction`
+    centrifugal,  // of a model that turns with an angular velocity of square `magnitude` about an axis
+    volume_force  // force `magnitude` by reference volume along `direction`
+  } kind = Kind::gravity;
   std::int32_t element_set = -1;
   double magnitude = 0.0;
   double previous = 0.0;
-  std::array<double, 3> direction{};
+  std::array<double, 3> direction{};  // unit; centrifugal: of the axis
+  std::array<double, 3> point{};      // centrifugal: on the axis
   std::int32_t amplitude = -1;
   std::int32_t file = -1, line = 0;
 };
@@ -163,7 +169,7 @@ struct Step {
   std::vector<BoundaryCondition> boundary;
   std::vector<ConcentratedLoad> concentrated_loads;
   std::vector<PressureLoad> pressures;
-  std::vector<GravityLoad> gravity;
+  std::vector<BodyLoad> body_loads;
   std::vector<std::int32_t> active_contact_pairs;  // rows of Model::contact_pairs, after *MODEL CHANGE
   std::vector<ElementRef> removed_elements;        // sorted: out of the model in this step, after *MODEL CHANGE
   std::vector<RigidAttachment> attachments;

@@ -69,8 +69,8 @@ void BeamGroup::set_inertia(std::int32_t element, const std::array<double, 3>& k
 
 void BeamGroup::initialize_history(std::span<double> history) const { std::fill(history.begin(), history.end(), 0.0); }
 
-void BeamGroup::lumped_mass(std::int32_t element, std::span<double> mass) const {
-  mass[0] = mass[1] = 0.5 * section_data_.density * section_data_.shape.area * reference(element, length);
+void BeamGroup::lumped_volume(std::int32_t element, std::span<double> volume) const {
+  volume[0] = volume[1] = 0.5 * section_data_.shape.area * reference(element, length);
 }
 
 void BeamGroup::lumped_rotary_inertia(std::int32_t element, std::span<double> share) const {

@@ -22,7 +22,8 @@ class BeamGroup final : public ElementGroup {
 
   int history_size() const override { return fibre_row(static_cast<int>(section_data_.fibres.size())); }
   void initialize_history(std::span<double> history) const override;
-  void lumped_mass(std::int32_t element, std::span<double> mass) const override;
+  void lumped_volume(std::int32_t element, std::span<double> volume) const override;
+  double density() const override { return section_data_.density; }
   /// At least the physical inertia, and so much that shear and bending never oscillate faster than waves along the axis:
   /// the stable increment of any beam is L / sqrt(E / rho).
   void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const override;

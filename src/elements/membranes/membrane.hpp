@@ -23,7 +23,8 @@ class MembraneGroup final : public ElementGroup {
     return row < 0 ? row : point * section_data_.law->history_size() + row;
   }
   void initialize_history(std::span<double> history) const override;
-  void lumped_mass(std::int32_t element, std::span<double> mass) const override;
+  void lumped_volume(std::int32_t element, std::span<double> volume) const override;
+  double density() const override { return section_data_.density; }
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,

@@ -132,9 +132,9 @@ void MembraneGroup<corners, points>::initialize_history(std::span<double> histor
 }
 
 template <int corners, int points>
-void MembraneGroup<corners, points>::lumped_mass(std::int32_t element, std::span<double> mass) const {
+void MembraneGroup<corners, points>::lumped_volume(std::int32_t element, std::span<double> volume) const {
   for (int i = 0; i < corners; ++i)
-    mass[i] = section_data_.density * section_data_.thickness * nodal_area_[element * corners + i];
+    volume[i] = section_data_.thickness * nodal_area_[element * corners + i];
 }
 
 template <int corners, int points>

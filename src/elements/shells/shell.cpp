@@ -35,8 +35,8 @@ ShellGroup<corners, points>::ShellGroup(const GroupInput& input)
     : ElementGroup(input),
       section_(shell_section(input.model, input.model.sections[input.section])),
       record_(static_cast<std::size_t>(padded_size_) * Record::size),
-      nodal_mass_(static_cast<std::size_t>(padded_size_) * corners),
-      nodal_inertia_(nodal_mass_.size()) {
+      nodal_volume_(static_cast<std::size_t>(padded_size_) * corners),
+      nodal_inertia_(nodal_volume_.size()) {
   const Section& section = input.model.sections[input.section];
   const ElementTable& elements = input.model.elements[table_];
   std::vector<double> stiffness(36 * corners * corners);
@@ -52,10 +52,12 @@ ShellGroup<corners, points>::ShellGroup(const GroupInput& input)
     fill_shell_reference<corners, points>(geometry, section_, thickness, {section.hourglass, section.hourglass_scale},
                                           data);
 
-    const std::span<double> mass(nodal_mass_.data() + element * corners, corners),
-        inertia(nodal_inertia_.data() + element * corners, corners);
+    std::array<double, corners> mass;
+    const std::span<double> inertia(nodal_inertia_.data() + element * corners, corners);
     for (int i = 0; i < corners; ++i) {
-      mass[i] = section_.density * thickness[i] * geometry.nodal_area[i];
+      const double volume = thickness[i] * geometry.nodal_area[i];
+      nodal_volume_[element * corners + i] = volume;
+      mass[i] = section_.density * volume;
       inertia[i] = mass[i] * scaled_rotary_inertia_per_mass(section_, thickness[i], geometry.area);
     }
     stiffness_at_rest(element, geometry, stiffness);
@@ -269,8 +271,8 @@ void ShellGroup<corners, points>::begin(int pack, Block& block, const ExplicitCy
 }
 
 template <int corners, int points>
-void ShellGroup<corners, points>::lumped_mass(std::int32_t element, std::span<double> mass) const {
-  std::copy_n(nodal_mass_.begin() + element * corners, corners, mass.begin());
+void ShellGroup<corners, points>::lumped_volume(std::int32_t element, std::span<double> volume) const {
+  std::copy_n(nodal_volume_.begin() + element * corners, corners, volume.begin());
 }
 
 template <int corners, int points>

@@ -22,7 +22,8 @@ class ShellGroup final : public ElementGroup {
 
   int history_size() const override;
   void initialize_history(std::span<double> history) const override;
-  void lumped_mass(std::int32_t element, std::span<double> mass) const override;
+  void lumped_volume(std::int32_t element, std::span<double> volume) const override;
+  double density() const override { return section_.density; }
   void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const override;
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;
@@ -93,7 +94,7 @@ class ShellGroup final : public ElementGroup {
 
   ShellSection section_;
   AlignedVector<double> record_;                    // Record::size packs per pack of elements
-  std::vector<double> nodal_mass_, nodal_inertia_;  // of each corner of each element
+  std::vector<double> nodal_volume_, nodal_inertia_;  // of each corner of each element
 };
 
 // The strain of a point of the surface is the mean and, where there are several points, what the modes add there; the

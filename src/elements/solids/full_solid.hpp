@@ -28,8 +28,9 @@ class FullSolid final : public ElementGroup {
     std::fill(history.begin(), history.end(), 0.0);
     history[0] = 1.0;
   }
-  void lumped_mass(std::int32_t element, std::span<double> mass) const override {
-    std::fill(mass.begin(), mass.end(), material_.density * reference(element)[Record::volume] / Shape::nodes);
+  double density() const override { return material_.density; }
+  void lumped_volume(std::int32_t element, std::span<double> volume) const override {
+    std::fill(volume.begin(), volume.end(), reference(element)[Record::volume] / Shape::nodes);
   }
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;

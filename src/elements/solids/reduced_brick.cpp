@@ -50,8 +50,8 @@ void ReducedBrick::initialize_history(std::span<double> history) const {
   history[0] = 1.0;
 }
 
-void ReducedBrick::lumped_mass(std::int32_t element, std::span<double> mass) const {
-  std::fill(mass.begin(), mass.end(), material_.density * reference(element)[brick_record::volume] / nodes_per_brick);
+void ReducedBrick::lumped_volume(std::int32_t element, std::span<double> volume) const {
+  std::fill(volume.begin(), volume.end(), reference(element)[brick_record::volume] / nodes_per_brick);
 }
 
 StableIncrement ReducedBrick::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,

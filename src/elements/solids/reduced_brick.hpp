@@ -22,7 +22,8 @@ class ReducedBrick final : public ElementGroup {
     const int row = field_row(*material_.law, field);
     return row < 0 ? row : own_history + row;
   }
-  void lumped_mass(std::int32_t element, std::span<double> mass) const override;
+  void lumped_volume(std::int32_t element, std::span<double> volume) const override;
+  double density() const override { return material_.density; }
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,

@@ -78,7 +78,7 @@ void SpringGroup::find_directions(const GroupInput& input) {
 
 void SpringGroup::initialize_history(std::span<double> history) const { std::ranges::fill(history, 0.0); }
 
-void SpringGroup::lumped_mass(std::int32_t, std::span<double> mass) const { std::ranges::fill(mass, 0.0); }
+void SpringGroup::lumped_volume(std::int32_t, std::span<double> volume) const { std::ranges::fill(volume, 0.0); }
 
 SpringGroup::Elongation SpringGroup::elongation(std::int32_t element, const NodalMotion& motion) const {
   const auto node = nodes(element);

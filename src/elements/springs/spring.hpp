@@ -25,7 +25,8 @@ class SpringGroup final : public ElementGroup {
 
   int history_size() const override { return 3; }
   void initialize_history(std::span<double> history) const override;
-  void lumped_mass(std::int32_t element, std::span<double> mass) const override;
+  void lumped_volume(std::int32_t element, std::span<double> volume) const override;
+  double density() const override { return 0.0; }
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,

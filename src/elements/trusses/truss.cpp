@@ -79,8 +79,8 @@ void TrussGroup::initialize_history(std::span<double> history) const {
   history[stretch_row()] = 1.0;
 }
 
-void TrussGroup::lumped_mass(std::int32_t element, std::span<double> mass) const {
-  mass[0] = mass[1] = 0.5 * density_ * area_ * reference_length(element);
+void TrussGroup::lumped_volume(std::int32_t element, std::span<double> volume) const {
+  volume[0] = volume[1] = 0.5 * area_ * reference_length(element);
 }
 
 struct TrussGroup::Pulled {

@@ -19,7 +19,8 @@ class TrussGroup final : public ElementGroup {
   int history_size() const override;
   int law_field_row(std::string_view field, int) const override { return field_row(*law_, field); }
   void initialize_history(std::span<double> history) const override;
-  void lumped_mass(std::int32_t element, std::span<double> mass) const override;
+  void lumped_volume(std::int32_t element, std::span<double> volume) const override;
+  double density() const override { return density_; }
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,

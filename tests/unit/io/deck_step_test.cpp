@@ -60,9 +60,26 @@ TEST(DeckStep, PressureOnFacesAndGravity) {
   const Step& step = model.steps[0];
   ASSERT_EQ(step.pressures.size(), 1u);
   EXPECT_EQ(model.surfaces[step.pressures[0].surface].faces[0].face, 1);
-  ASSERT_EQ(step.gravity.size(), 1u);
-  EXPECT_EQ(step.gravity[0].element_set, -1);
-  EXPECT_EQ(step.gravity[0].direction, (std::array<double, 3>{0, 0, -1}));
+  ASSERT_EQ(step.body_loads.size(), 1u);
+  EXPECT_EQ(step.body_loads[0].element_set, -1);
+  EXPECT_EQ(step.body_loads[0].direction, (std::array<double, 3>{0, 0, -1}));
+}
+
+TEST(DeckStep, ForcesOnAllMatterOfASet) {
+  const auto model = read(brick + "*STEP\n*STATIC\n*DLOAD\nALL, CENTRIF, 100., 1., 2., 3., 0., 0., 2.\nALL, BY, -4.\nALL, BY, 5.\n"
+                                  "*END STEP\n*STEP\n*STATIC\n*DLOAD\nALL, BY, 6.\n*END STEP\n")
+                         .model;
+  const auto& loads = model.steps[0].body_loads;
+  ASSERT_EQ(loads.size(), 2u);  // a line for the same set and direction takes the place of the first
+  EXPECT_EQ(loads[0].kind, BodyLoad::Kind::centrifugal);
+  EXPECT_EQ(loads[0].magnitude, 100.0);
+  EXPECT_EQ(loads[0].point, (std::array<double, 3>{1, 2, 3}));
+  EXPECT_EQ(loads[0].direction, (std::array<double, 3>{0, 0, 1}));
+  EXPECT_EQ(loads[1].kind, BodyLoad::Kind::volume_force);
+  EXPECT_EQ(loads[1].magnitude, 5.0);
+  EXPECT_EQ(loads[1].direction, (std::array<double, 3>{0, 1, 0}));
+  EXPECT_EQ(model.steps[1].body_loads[1].previous, 5.0);
+  EXPECT_EQ(model.steps[1].body_loads[1].magnitude, 6.0);
 }
 
 TEST(DeckStep, PressureOnAMembraneActsAlongItsNormal) {
@@ -214,7 +231,7 @@ const std::string everything_steps =
     "*END STEP\n*STEP, NAME=TWO\n*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n1E-7, 1E-5\n*BULK VISCOSITY\n0.1, 0.\n*MODEL "
     "CHANGE, TYPE=CONTACT PAIR, ADD\nBOTTOM, ROAD\n"
     "*BOUNDARY, OP=NEW\n100, 2, 6\n*BOUNDARY, OP=NEW, TYPE=VELOCITY\n100, 1, 1, 11.\n*CLOAD, OP=NEW\n*DLOAD\nALL, "
-    "GRAV, 9810., 0., 0., -1.\n*OUTPUT, HISTORY, FREQUENCY=10\n"
+    "GRAV, 9810., 0., 0., -1.\nALL, BX, 3.\nALL, CENTRIF, 4., 1., 2., 3., 0., 1., 0.\n*OUTPUT, HISTORY, FREQUENCY=10\n"
     "*NODE OUTPUT, NSET=ALLN\nU3, RF\n*CONTACT OUTPUT\n*ENERGY OUTPUT\nALLKE, ETOTAL\n*END STEP\n";
 
 TEST(DeckWriter, WhatIsWrittenReadsBackTheSame) {

@@ -21,7 +21,8 @@ class Group : public ElementGroup {
   Group(const GroupInput& input, int history_size) : ElementGroup(input), history_size_(history_size) {}
   int history_size() const override { return history_size_; }
   void initialize_history(std::span<double> history) const override { std::fill(history.begin(), history.end(), 0.0); }
-  void lumped_mass(std::int32_t, std::span<double> mass) const override { std::fill(mass.begin(), mass.end(), 1.0); }
+  void lumped_volume(std::int32_t, std::span<double> volume) const override { std::fill(volume.begin(), volume.end(), 1.0); }
+  double density() const override { return 1.0; }
   StableIncrement add_forces(std::span<const PackRun>, const ExplicitCycle&, std::span<double>) const override { return {}; }
   bool linearize(std::int32_t, const NodalMotion&, std::span<const double>, std::span<double>, std::span<double>,
                  std::span<double>) const override {

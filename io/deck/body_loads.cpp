@@ -1,0 +1,118 @@
+#include "deck/body_loads.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "deck/geometry.hpp"
+#include "deck/load_magnitude.hpp"
+#include "deck/text.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+struct Label {
+  const char* name;
+  BodyLoad::Kind kind;
+  const char* magnitude;  // what the first number is
+  std::array<double, 3> direction{};
+};
+
+const std::array labels{Label{"GRAV", BodyLoad::Kind::gravity, "acceleration"},
+                        Label{"CENTRIF", BodyLoad::Kind::centrifugal, "square of the angular velocity"},
+                        Label{"BX", BodyLoad::Kind::volume_force, "force by volume", {1.0, 0.0, 0.0}},
+                        Label{"BY", BodyLoad::Kind::volume_force, "force by volume", {0.0, 1.0, 0.0}},
+                        Label{"BZ", BodyLoad::Kind::volume_force, "force by volume", {0.0, 0.0, 1.0}}};
+
+const Label* find_label(const std::string& name) {
+  const auto found = std::ranges::find_if(labels, [&](const Label& label) { return name == label.name; });
+  return found == labels.end() ? nullptr : &*found;
+}
+
+/// Set of a line, -1: the whole model; a single element gets a set of its own.
+std::optional<std::int32_t> set_of(Builder& builder, const Block& block, Row& row) {
+  if (!row.has(0)) return -1;
+  std::vector<ElementRef> elements;
+  if (!builder.elements_of(row.text(0), block, row.location(), elements)) return std::nullopt;
+  if (!parse_integer(row.text(0))) return *builder.find(builder.element_sets, row.name(0));
+  const auto set = builder.element_set_row("_DLOAD-" + row.name(0));
+  builder.add_to_element_set(set, elements[0]);
+  builder.elements_in(set);
+  return set;
+}
+
+void read_direction(Row& row, int first, const char* what, std::array<double, 3>& direction) {
+  for (int i = 0; i < 3; ++i) direction[i] = row.real_or(first + i, 0.0, what);
+  row.at_most(first + 3);
+  const double length = norm(direction);
+  if (row.ok() && !(length > 0.0)) row.error(fmt::format("the {} is missing; give three components", what));
+  for (double& component : direction) component /= length;
+}
+
+void read_numbers(Row& row, const Label& label, BodyLoad& load) {
+  load.magnitude = row.real(2, label.magnitude);
+  load.direction = label.direction;
+  switch (label.kind) {
+    case BodyLoad::Kind::gravity: return read_direction(row, 3, "direction", load.direction);
+    case BodyLoad::Kind::volume_force: return row.at_most(3);
+    case BodyLoad::Kind::centrifugal:
+      if (row.ok() && load.magnitude < 0.0)
+        row.error("the square of the angular velocity is negative; give omega^2, at least 0");
+      for (int i = 0; i < 3; ++i) load.point[i] = row.real_or(3 + i, 0.0, "point of the axis");
+      return read_direction(row, 6, "direction of the axis", load.direction);
+  }
+}
+
+bool replaces(const BodyLoad& load, const BodyLoad& other) {
+  return load.kind == other.kind && load.element_set == other.element_set && load.direction == other.direction &&
+         load.point == other.point;
+}
+
+}  // namespace
+
+bool is_body_load(const std::string& label) { return find_label(label) != nullptr; }
+
+std::string body_load_labels() {
+  std::string text;
+  for (const auto& label : labels) text += (text.empty() ? "" : ", ") + std::string(label.name);
+  return text;
+}
+
+void read_body_load(Builder& builder, const Block& block, Row& row, std::int32_t amplitude) {
+  const Label& label = *find_label(row.name(1));
+  BodyLoad load;
+  load.kind = label.kind;
+  read_numbers(row, label, load);
+  if (!row.ok()) return;
+  const auto set = set_of(builder, block, row);
+  if (!set) return;
+  load.element_set = *set;
+  load.magnitude = scaled(builder, amplitude, load.magnitude);
+  load.amplitude = amplitude;
+  load.file = row.location().file;
+  load.line = row.location().line;
+  builder.draft.said.insert({load.file, load.line});
+  auto& loads = current(builder).body_loads;
+  const auto found = std::ranges::find_if(loads, [&](const BodyLoad& other) { return replaces(load, other); });
+  if (found == loads.end()) {
+    loads.push_back(load);
+  } else {
+    load.previous = found->previous;
+    *found = load;
+  }
+}
+
+std::string body_load_text(const BodyLoad& load) {
+  const auto label = std::ranges::find_if(labels, [&](const Label& candidate) {
+    return candidate.kind == load.kind && (load.kind != BodyLoad::Kind::volume_force || candidate.direction == load.direction);
+  });
+  std::string text = fmt::format("{}, {}", label->name, load.magnitude);
+  const auto add = [&](const std::array<double, 3>& vector) { text += fmt::format(", {}, {}, {}", vector[0], vector[1], vector[2]); };
+  if (load.kind == BodyLoad::Kind::centrifugal) add(load.point);
+  if (load.kind != BodyLoad::Kind::volume_force) add(load.direction);
+  return text;
+}
+
+}  // namespace balocco::deck
