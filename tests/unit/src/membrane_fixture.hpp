@@ -11,6 +11,7 @@
 #include "materials/material_law.hpp"
 #include "math/exact_sum.hpp"
 #include "model/model.hpp"
+#include "symmetric_eigenvalues.hpp"
 
 namespace balocco::test {
 
@@ -105,7 +106,7 @@ struct Sheet {
     for (int i = 0; i < dofs(); ++i) scale[i] = 1.0 / std::sqrt(mass[i / 3]);
     const Eigen::MatrixXd k = stiffness(element);
     const Eigen::MatrixXd scaled = scale.asDiagonal() * (0.5 * (k + k.transpose())) * scale.asDiagonal();
-    return 2.0 / std::sqrt(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(scaled, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff());
+    return 2.0 / std::sqrt(symmetric_eigenvalues(scaled).maxCoeff());
   }
 
   /// External - internal forces of all elements (4 a node), rounded with one constant for every node.

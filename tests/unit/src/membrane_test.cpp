@@ -78,7 +78,7 @@ TEST_P(Membrane, HasTheRightNumberOfZeroEigenvalues) {
     sheet.build();
     const Eigen::MatrixXd k = sheet.stiffness();
     EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 1e-12 * k.cwiseAbs().maxCoeff());
-    const Eigen::VectorXd values = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+    const Eigen::VectorXd values = symmetric_eigenvalues(k);
     const double zero = 1e-12 * values.maxCoeff();
     EXPECT_EQ((values.array().abs() < zero).count(), GetParam() == "M3D3" ? 6 : expected);
     EXPECT_GT(values.minCoeff(), -zero);
@@ -158,11 +158,11 @@ TEST(MembraneHourglass, StiffnessControlIsIsotropic) {
   Sheet sheet = rectangle("M3D4R", 2.0, 1.0);
   sheet.model.sections[0].hourglass = HourglassControl::stiffness;
   sheet.build();
-  Eigen::Matrix<double, 12, 3> mode;
-  mode.setZero();
-  for (int i = 0; i < 4; ++i)
-    for (int c = 0; c < 3; ++c) mode(3 * i + c, c) = i % 2 == 0 ? 1.0 : -1.0;
-  const Eigen::Matrix3d k = mode.transpose() * sheet.stiffness() * mode;
+  const Eigen::MatrixXd stiffness = sheet.stiffness();
+  Eigen::Matrix3d k = Eigen::Matrix3d::Zero();  // of the mode that moves neighbouring corners against each other
+  for (int row = 0; row < 12; ++row)
+    for (int column = 0; column < 12; ++column)
+      k(row % 3, column % 3) += (row / 3 + column / 3) % 2 == 0 ? stiffness(row, column) : -stiffness(row, column);
   // q = gamma . x = 4; stiffness 0.005 G V <g . g>, <g . g> = (1 / a^2 + 1 / b^2) / 12
   const double expected = 16.0 * 0.005 * (100.0 / 2.6) * (0.5 * 2.0) * (1.0 / 4.0 + 1.0) / 12.0;
   EXPECT_LT((k - expected * Eigen::Matrix3d::Identity()).norm(), 1e-12 * expected);

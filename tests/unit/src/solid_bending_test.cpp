@@ -7,7 +7,7 @@
 
 #include "solid_fixture.hpp"
 
-namespace balocco::testing {
+namespace balocco::test {
 
 namespace {
 
@@ -197,4 +197,4 @@ TEST(SolidBending, IncompressibleTubeDoesNotLock) {
 
 }  // namespace
 
-}  // namespace balocco::testing
+}  // namespace balocco::test

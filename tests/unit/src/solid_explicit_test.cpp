@@ -8,7 +8,7 @@
 #include "elements/solids/solid_reference.hpp"
 #include "solid_fixture.hpp"
 
-namespace balocco::testing {
+namespace balocco::test {
 
 namespace {
 
@@ -223,4 +223,4 @@ TEST(SolidOutput, TensorsAndInvariants) {
 
 }  // namespace
 
-}  // namespace balocco::testing
+}  // namespace balocco::test

@@ -14,7 +14,7 @@
 #include "math/exact_sum.hpp"
 #include "model/model.hpp"
 
-namespace balocco::testing {
+namespace balocco::test {
 
 struct SolidOptions {
   std::string type = "C3D8R";
@@ -183,4 +183,4 @@ inline void shake(SolidCase& c, double size, unsigned seed = 3) {
     for (int d = 0; d < 3; ++d) c.position[4 * i + d] += uniform(random);
 }
 
-}  // namespace balocco::testing
+}  // namespace balocco::test
