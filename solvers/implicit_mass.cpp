@@ -1,7 +1,11 @@
 #include "implicit_mass.hpp"
 
+#include <algorithm>
+#include <vector>
+
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
+#include "elements/rotary_inertia.hpp"
 #include "math/rotation.hpp"
 
 namespace balocco {
@@ -10,7 +14,8 @@ namespace {
 
 using Block = std::array<double, 9>;
 
-/// Calls `visit(motion, block)` for every inertia that this rank owns: 3 x 3, of a displacement or a spin.
+/// Calls `visit(motion, block)` for every inertia of this rank's nodes and elements: 3 x 3, of a displacement or a spin. Rotations
+/// have the inertia of the material, not that which the explicit loop gives them for its increment's sake.
 template <class Visit>
 void for_each_inertia(const Analysis& analysis, const ImplicitDofMap& map, Visit visit) {
   const auto& domain = analysis.domain;
@@ -18,17 +23,27 @@ void for_each_inertia(const Analysis& analysis, const ImplicitDofMap& map, Visit
     const double mass = analysis.nodal_mass[node];
     if (domain.owned[node] && mass > 0.0) visit(map.motion(node), Block{mass, 0.0, 0.0, 0.0, mass, 0.0, 0.0, 0.0, mass});
   }
-  for (std::int32_t node = 0; node < domain.turning; ++node) {
-    const double inertia = analysis.rotary_inertia[node];
-    if (domain.owned[node] && inertia > 0.0)
-      visit(map.nodal_spin(node), Block{inertia, 0.0, 0.0, 0.0, inertia, 0.0, 0.0, 0.0, inertia});
-  }
-  for (const auto& [node, section, own] : analysis.rotary_tensors) {
-    if (!domain.owned[node]) continue;
+  const auto visit_spin = [&](std::int32_t node, const Matrix3<double>& at_rest) {
     const double* q = &analysis.current.orientation[4 * node];
     const auto rotation = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
-    visit(map.nodal_spin(node), (rotation * own * transpose(rotation)).component);
+    visit(map.nodal_spin(node), (rotation * at_rest * transpose(rotation)).component);
+  };
+  std::vector<double> tensors;
+  for (const auto& group : analysis.element_groups) {
+    const auto* const turning = dynamic_cast<const MaterialRotaryInertia*>(group.get());
+    if (turning == nullptr) continue;
+    tensors.resize(9 * group->nodes_per_element());
+    for (std::int32_t element = 0; element < group->size(); ++element) {
+      turning->material_rotary_inertia(element, tensors);
+      for (int i = 0; i < group->nodes_per_element(); ++i) {
+        Matrix3<double> at_rest;
+        std::copy_n(&tensors[9 * i], 9, at_rest.component.begin());
+        visit_spin(group->nodes(element)[i], at_rest);
+      }
+    }
   }
+  for (const auto& [node, section, own] : analysis.rotary_tensors)
+    if (domain.owned[node]) visit_spin(node, own);
   const auto& model = analysis.model;
   for (const auto& elements : model.elements) {
     if (elements.type->section != Section::Kind::rotary_inertia) continue;

@@ -166,7 +166,61 @@ def cantilever_modes(runner):
         close(got, expected, 2e-2, "frequency")
 
 
-CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube)}
+def strip(count, length, width, thickness, held):
+    """S4R in a row along x, without Poisson's ratio."""
+    deck = Deck()
+    for i in range(count + 1):
+        for side in range(2):
+            deck.add_node(2 * i + side + 1, length * i / count, width * side, 0.0)
+    deck.elements["S4R"] = [(i + 1, [2 * i + 1, 2 * i + 3, 2 * i + 4, 2 * i + 2]) for i in range(count)]
+    deck.sets["NALL"] = list(deck.nodes)
+    deck.sets["ROOT"] = [1, 2]
+    deck.sets["ENDS"] = [1, 2, 2 * count + 1, 2 * count + 2]
+    deck.add("*SHELL SECTION, ELSET=ALL, MATERIAL=M\n%g\n*MATERIAL, NAME=M\n*ELASTIC\n%g, 0.\n*DENSITY\n%g" % (
+        thickness, YOUNG, DENSITY))
+    deck.add(MODES % ("", "3", "*BOUNDARY\n" + held))
+    return deck
+
+
+def strip_stretched(runner):
+    """A strip of shells held at one end, its drilling rotations free: the modes of a chain of masses, none of rotations, which have
+    no inertia about the normal: f_k = sqrt(k / m) sin((2k - 1) pi / 4n) / pi."""
+    count, length = 8, 8.0
+    results = run_alike(runner, "strip_stretched", strip(count, length, 1.0, 0.1, "NALL, 2, 5\nROOT, 1, 1\n"), 1)
+    scale = math.sqrt(YOUNG / DENSITY) * count / length / math.pi
+    for k, found in enumerate(frequencies(results), 1):
+        close(found, scale * math.sin((2 * k - 1) * math.pi / (4 * count)), 1e-9, "mode %d" % k)
+
+
+def strip_bent(runner):
+    """A wide strip of shells on two supports bends like a beam, f_k = (k pi / L)^2 sqrt(E h^2 / 12 rho) / 2 pi, to what 32 elements
+    are good for; the rotary inertia, h^2 k^2 pi^2 / 24 L^2 of it, is nothing in a thin one."""
+    length, thickness = 16.0, 0.1
+    results = run_alike(runner, "strip_bent", strip(32, length, 4.0, thickness, "NALL, 1, 2\nNALL, 4, 4\nNALL, 6, 6\nENDS, 3, 3\n"), 1)
+    for k, found in enumerate(frequencies(results), 1):
+        formula = (k * math.pi / length) ** 2 * math.sqrt(YOUNG * thickness**2 / 12.0 / DENSITY) / (2 * math.pi)
+        close(found, formula, 1e-2, "mode %d" % k)
+
+
+def shaft(runner):
+    """Torsion of a round beam held at one end, its nodes with the polar inertia of the section, which is its torsion constant:
+    f_k = sqrt(G / rho) / (h pi) sin((2k - 1) pi / 4n)."""
+    count, length, radius = 8, 16.0, 0.2
+    deck = Deck()
+    for i in range(count + 1):
+        deck.add_node(i + 1, length * i / count, 0.0, 0.0)
+    deck.elements["B31"] = [(i + 1, [i + 1, i + 2]) for i in range(count)]
+    deck.sets["NALL"] = list(deck.nodes)
+    deck.add("*BEAM SECTION, ELSET=ALL, MATERIAL=M, SECTION=CIRC\n%g\n0., 0., 1.\n*MATERIAL, NAME=M\n*ELASTIC\n%g, 0.25\n*DENSITY\n%g" % (
+        radius, YOUNG, DENSITY))
+    deck.add(MODES % ("", "3", "*BOUNDARY\nNALL, 1, 3\nNALL, 5, 6\n1, 4, 4\n"))
+    results = run_alike(runner, "shaft", deck, 1)
+    scale = math.sqrt(YOUNG / 2.5 / DENSITY) * count / length / math.pi
+    for k, found in enumerate(frequencies(results), 1):
+        close(found, scale * math.sin((2 * k - 1) * math.pi / (4 * count)), 1e-9, "mode %d" % k)
+
+
+CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent, shaft)}
 CASES["cantilever"] = cantilever_modes
 
 if __name__ == "__main__":

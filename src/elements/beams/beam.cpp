@@ -77,6 +77,21 @@ void BeamGroup::lumped_rotary_inertia(std::int32_t element, std::span<double> sh
   share[0] = share[1] = reference(element, inertia);
 }
 
+void BeamGroup::material_rotary_inertia(std::int32_t element, std::span<double> tensors) const {
+  const BeamArea& s = section_data_.shape;
+  const double own[3][3] = {{s.i11, -s.i12, 0.0}, {-s.i12, s.i22, 0.0}, {0.0, 0.0, s.i11 + s.i22}};
+  const double half = 0.5 * section_data_.density * reference(element, length);
+  std::fill(tensors.begin(), tensors.end(), 0.0);
+  for (int row = 0; row < 3; ++row)
+    for (int column = 0; column < 3; ++column) {
+      double& sum = tensors[3 * row + column];
+      for (int i = 0; i < 3; ++i)
+        for (int k = 0; k < 3; ++k)
+          sum += half * own[i][k] * reference(element, frame + 3 * row + i) * reference(element, frame + 3 * column + k);
+      tensors[9 + 3 * row + column] = sum;
+    }
+}
+
 /// Stiffness-proportional damping and linear bulk viscosity b1 rho c L along the axis; books what they dissipate.
 /// @return damping coefficient of the fastest oscillation (damping / mass), for the stable increment
 Pack BeamGroup::add_viscosity(std::int32_t first, const BeamVector<Pack>& strain, const ExplicitCycle& cycle,

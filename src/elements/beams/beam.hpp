@@ -10,12 +10,13 @@
 #include "elements/aligned_vector.hpp"
 #include "elements/beams/beam_kernel.hpp"
 #include "elements/element_group.hpp"
+#include "elements/rotary_inertia.hpp"
 #include "sections/beam_section.hpp"
 
 namespace balocco {
 
 /// History of an element: the energy dissipated by viscosity, its six strains, then those of the section's fibres.
-class BeamGroup final : public ElementGroup {
+class BeamGroup final : public ElementGroup, public MaterialRotaryInertia {
  public:
   /// @throws InputError if the section lacks a material or stiffness, n1 runs along the axis or the nodes coincide.
   explicit BeamGroup(const GroupInput& input);
@@ -27,6 +28,8 @@ class BeamGroup final : public ElementGroup {
   /// At least the physical inertia, and so much that shear and bending never oscillate faster than waves along the axis:
   /// the stable increment of any beam is L / sqrt(E / rho).
   void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const override;
+  /// That of the section about its axes, over half of the length.
+  void material_rotary_inertia(std::int32_t element, std::span<double> tensors) const override;
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,

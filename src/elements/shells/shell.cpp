@@ -36,7 +36,8 @@ ShellGroup<corners, points>::ShellGroup(const GroupInput& input)
       section_(shell_section(input.model, input.model.sections[input.section])),
       record_(static_cast<std::size_t>(padded_size_) * Record::size),
       nodal_volume_(static_cast<std::size_t>(padded_size_) * corners),
-      nodal_inertia_(nodal_volume_.size()) {
+      nodal_inertia_(nodal_volume_.size()),
+      plate_inertia_(nodal_volume_.size()) {
   const Section& section = input.model.sections[input.section];
   const ElementTable& elements = input.model.elements[table_];
   std::vector<double> stiffness(36 * corners * corners);
@@ -58,6 +59,7 @@ ShellGroup<corners, points>::ShellGroup(const GroupInput& input)
       const double volume = thickness[i] * geometry.nodal_area[i];
       nodal_volume_[element * corners + i] = volume;
       mass[i] = section_.density * volume;
+      plate_inertia_[element * corners + i] = mass[i] * rotary_inertia_per_mass(section_, thickness[i]);
       inertia[i] = mass[i] * scaled_rotary_inertia_per_mass(section_, thickness[i], geometry.area);
     }
     stiffness_at_rest(element, geometry, stiffness);
@@ -281,8 +283,19 @@ void ShellGroup<corners, points>::lumped_rotary_inertia(std::int32_t element, st
 }
 
 template <int corners, int points>
+void ShellGroup<corners, points>::material_rotary_inertia(std::int32_t element, std::span<double> tensors) const {
+  const double* const director = record(element) + Record::director * pack_size;
+  for (int i = 0; i < corners; ++i)
+    for (int row = 0; row < 3; ++row)
+      for (int column = 0; column < 3; ++column) {
+        const double along = director[(3 * i + row) * pack_size] * director[(3 * i + column) * pack_size];
+        tensors[9 * i + 3 * row + column] = plate_inertia_[element * corners + i] * ((row == column ? 1.0 : 0.0) - along);
+      }
+}
+
+template <int corners, int points>
 std::size_t ShellGroup<corners, points>::bytes_per_element() const {
-  return sizeof(double) * (Record::size + 2 * corners) + 2 * corners * sizeof(std::int32_t);
+  return sizeof(double) * (Record::size + 3 * corners) + 2 * corners * sizeof(std::int32_t);
 }
 
 template class ShellGroup<3, 1>;

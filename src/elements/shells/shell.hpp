@@ -6,6 +6,7 @@
 
 #include "elements/aligned_vector.hpp"
 #include "elements/element_group.hpp"
+#include "elements/rotary_inertia.hpp"
 #include "elements/shells/shell_kernel.hpp"
 #include "elements/shells/shell_reference.hpp"
 #include "sections/shell_section.hpp"
@@ -16,7 +17,7 @@ namespace balocco {
 /// viscosity, and with stiffness-proportional damping the mean strains E11 E22 2E12 K11 K22 2K12. Integration points
 /// are counted layer by layer from SNEG to SPOS at each point of the surface in turn.
 template <int corners, int points>
-class ShellGroup final : public ElementGroup {
+class ShellGroup final : public ElementGroup, public MaterialRotaryInertia {
  public:
   explicit ShellGroup(const GroupInput& input);
 
@@ -25,6 +26,8 @@ class ShellGroup final : public ElementGroup {
   void lumped_volume(std::int32_t element, std::span<double> volume) const override;
   double density() const override { return section_.density; }
   void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const override;
+  /// That of the plate around each corner: the same about all axes in its surface, none about the corner's director.
+  void material_rotary_inertia(std::int32_t element, std::span<double> tensors) const override;
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
@@ -94,7 +97,7 @@ class ShellGroup final : public ElementGroup {
 
   ShellSection section_;
   AlignedVector<double> record_;                    // Record::size packs per pack of elements
-  std::vector<double> nodal_volume_, nodal_inertia_;  // of each corner of each element
+  std::vector<double> nodal_volume_, nodal_inertia_, plate_inertia_;  // of each corner of each element; the last not raised
 };
 
 // The strain of a point of the surface is the mean and, where there are several points, what the modes add there; the
