@@ -13,6 +13,14 @@ T volume_rate(const T& jacobian, const T& old_jacobian, double inverse_increment
   return (2.0 * inverse_increment) * ((jacobian - old_jacobian) / (jacobian + old_jacobian));
 }
 
+/// Work of a viscous stress over a change of its strain, half with the stress before, half with the one after, as central differences
+/// weigh forces. The new stress alone would book a dissipation of vibrations near the limit of stability, whose rates alternate,
+/// that does not take place.
+template <class T>
+T viscous_work(const T& old_stress, const T& new_stress, const T& change) {
+  return 0.5 * ((old_stress + new_stress) * change);
+}
+
 /// Linear and quadratic coefficients of bulk viscosity with what they multiply.
 struct BulkViscosity {
   double linear = 0.0;     // b1 rho c_d: stress = linear L d

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
 #include "elements/history_pack.hpp"
 #include "elements/nodal_packs.hpp"
@@ -101,10 +102,11 @@ Pack BeamGroup::add_viscosity(std::int32_t first, const BeamVector<Pack>& strain
   const Pack l = load(data + length * pack_size);
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
   const double wave = std::sqrt(section_data_.youngs_modulus / section_data_.density);
-  BeamVector<Pack> rate;
+  BeamVector<Pack> change, rate;
   for (int i = 0; i < 6; ++i) {
-    rate[i] = inverse_increment * (strain[i] - load_unaligned(row(1 + i)));
-    store_unaligned(strain[i], row(1 + i));
+    change[i] = strain[i] - load_unaligned(row(strain_row + i));
+    rate[i] = inverse_increment * change[i];
+    store_unaligned(strain[i], row(strain_row + i));
   }
   BeamVector<Pack> viscous{};
   if (section_data_.damping_beta > 0.0) {
@@ -113,10 +115,13 @@ Pack BeamGroup::add_viscosity(std::int32_t first, const BeamVector<Pack>& strain
     for (auto& component : viscous) component = section_data_.damping_beta * component;
   }
   viscous[2] += (cycle.linear_bulk_viscosity * section_data_.density * wave * section_data_.shape.area) * l * rate[2];
-  Pack power = viscous[0] * rate[0];
-  for (int i = 1; i < 6; ++i) power = power + viscous[i] * rate[i];
-  for (int i = 0; i < 6; ++i) resultant[i] = resultant[i] + viscous[i];
-  store_unaligned(load_unaligned(row(0)) + cycle.increment * (l * power), row(0));
+  Pack work = 0.0;
+  for (int i = 0; i < 6; ++i) {
+    work = work + viscous_work(load_unaligned(row(viscous_row + i)), viscous[i], change[i]);
+    store_unaligned(viscous[i], row(viscous_row + i));
+    resultant[i] = resultant[i] + viscous[i];
+  }
+  store_unaligned(load_unaligned(row(0)) + l * work, row(0));
   const Pack axial = wave / l;
   return (4.0 * section_data_.damping_beta) * axial * axial + (4.0 * cycle.linear_bulk_viscosity) * axial;
 }

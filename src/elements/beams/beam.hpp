@@ -53,7 +53,9 @@ class BeamGroup final : public ElementGroup, public MaterialRotaryInertia {
   }
   const double* record(std::int32_t first) const { return records_.data() + first * rows; }
 
-  int fibre_row(int fibre) const { return 7 + (section_data_.law ? fibre * section_data_.law->history_size() : 0); }
+  /// History: dissipation, strains, viscous resultants after the last increment, then the fibres'.
+  static constexpr int strain_row = 1, viscous_row = 7;
+  int fibre_row(int fibre) const { return viscous_row + 6 + (section_data_.law ? fibre * section_data_.law->history_size() : 0); }
   void set_reference(const Model& model, std::int32_t element);
   std::array<double, 3> element_shear_stiffness(double length) const;
   void set_inertia(std::int32_t element, const std::array<double, 3>& shear);

@@ -93,7 +93,7 @@ bool BeamGroup::linearize(std::int32_t element, const NodalMotion& motion, std::
                                  1.0 / reference(element, length));
   std::copy(old_history.begin(), old_history.end(), new_history.begin());
   const auto forces = beam_forces(k, response(element, k.strain, quasi_static, new_history), e);
-  for (int i = 0; i < 6; ++i) new_history[1 + i] = k.strain[i].value;
+  for (int i = 0; i < 6; ++i) new_history[strain_row + i] = k.strain[i].value;
   const auto put = [&](int row, const Scalar& value, double sign) {
     force[row] = sign * value.value;
     if (stiffness.empty()) return;

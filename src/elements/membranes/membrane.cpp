@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
 #include "elements/history_pack.hpp"
 #include "elements/membranes/membrane_reference.hpp"
@@ -64,7 +65,8 @@ std::array<Pack, 3> MembraneGroup<corners, points>::viscous_stress(Block& block,
   const Pack pressure = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Layout::viscosity) * rate;
   const Pack contravariant = pressure / square;  // Cauchy stress pressure * 1 pulled back: pressure * C^-1
   std::array<Pack, 3> stress{contravariant * stretch.c22, contravariant * stretch.c11, -contravariant * stretch.c12};
-  Pack power = pressure * rate;
+  Pack work = viscous_work(load_unaligned(row(viscous_row(point))), pressure, cycle.increment * rate);
+  store_unaligned(pressure, row(viscous_row(point)));
 
   if (damped()) {
     const auto& d = section_data_.damping_stiffness;
@@ -74,14 +76,16 @@ std::array<Pack, 3> MembraneGroup<corners, points>::viscous_stress(Block& block,
       strain_rate[i] = inverse_increment * (strain - load_unaligned(row(strain_row(point) + i)));
       store_unaligned(strain, row(strain_row(point) + i));
     }
+    Pack power = 0.0;
     for (int i = 0; i < 3; ++i) {
       const Pack damping = d[3 * i] * strain_rate[0] + d[3 * i + 1] * strain_rate[1] + d[3 * i + 2] * strain_rate[2];
       stress[i] = stress[i] + damping;
       power = power + damping * strain_rate[i];
     }
+    work = work + cycle.increment * power;
   }
   const Pack volume = MembraneKernel<Pack, corners, points>::volume(data, point);
-  block.dissipated[pack] = block.dissipated[pack] + cycle.increment * (volume * power);
+  block.dissipated[pack] = block.dissipated[pack] + volume * work;
   return stress;
 }
 

@@ -42,7 +42,8 @@ class MembraneGroup final : public ElementGroup {
 
   int area_ratio_row(int point) const { return points * section_data_.law->history_size() + point; }
   int dissipation_row() const { return area_ratio_row(points); }
-  int strain_row(int point) const { return dissipation_row() + 1 + 3 * point; }
+  int viscous_row(int point) const { return dissipation_row() + 1 + point; }
+  int strain_row(int point) const { return viscous_row(points) + 3 * point; }
   bool damped() const { return section_data_.damping_beta > 0.0; }
   const double* pack_reference(std::int32_t element) const {
     return reference_.data() + static_cast<std::size_t>(element / pack_size) * (Layout::size * pack_size);

@@ -122,7 +122,7 @@ bool MembraneGroup<corners, points>::linearize(std::int32_t element, const Nodal
 
 template <int corners, int points>
 int MembraneGroup<corners, points>::history_size() const {
-  return dissipation_row() + 1 + (damped() ? 3 * points : 0);
+  return strain_row(damped() ? points : 0);
 }
 
 template <int corners, int points>

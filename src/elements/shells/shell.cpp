@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
 #include "elements/history_pack.hpp"
 #include "elements/nodal_packs.hpp"
@@ -158,7 +159,8 @@ void ShellGroup<corners, points>::add_viscosity(Block& block, int pack, const Ex
   stress.membrane[0] = stress.membrane[0] + contravariant * c22;
   stress.membrane[1] = stress.membrane[1] + contravariant * c11;
   stress.membrane[2] = stress.membrane[2] - contravariant * c12;
-  Pack power = area * (pressure * rate);
+  Pack work = area * viscous_work(load_unaligned(row(viscous_row())), pressure, cycle.increment * rate);
+  store_unaligned(pressure, row(viscous_row()));
 
   if (damped()) {
     const Pack h = reference_value<Pack>(data, Record::point + 1);
@@ -170,6 +172,7 @@ void ShellGroup<corners, points>::add_viscosity(Block& block, int pack, const Ex
       store_unaligned(strain, row(strain_row() + i));
     }
     const auto& [a, b, d] = section_.damping;
+    Pack power = 0.0;
     for (int i = 0; i < 3; ++i) {
       Pack n(0.0), m(0.0);
       for (int j = 0; j < 3; ++j) {
@@ -180,8 +183,9 @@ void ShellGroup<corners, points>::add_viscosity(Block& block, int pack, const Ex
       stress.curvature[i] = stress.curvature[i] + area * h * h * m;
       power = power + area * h * (n * rates[i] + m * rates[3 + i]);
     }
+    work = work + cycle.increment * power;
   }
-  block.dissipated[pack] = cycle.increment * power;
+  block.dissipated[pack] = work;
 }
 
 /// 2 / omega (sqrt(1 + xi^2) - xi) with the largest frequency at rest, exact, grown by what has changed since: all

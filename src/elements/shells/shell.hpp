@@ -61,7 +61,8 @@ class ShellGroup final : public ElementGroup, public MaterialRotaryInertia {
   int layers() const { return section_.layers.empty() ? 1 : static_cast<int>(section_.layers.size()); }
   int area_ratio_row() const { return points * section_.history_size; }
   int dissipation_row() const { return area_ratio_row() + 1; }
-  int strain_row() const { return dissipation_row() + 1; }
+  int viscous_row() const { return dissipation_row() + 1; }
+  int strain_row() const { return viscous_row() + 1; }
   bool damped() const { return section_.damping_beta > 0.0; }
   double* record(std::int32_t element) {
     return record_.data() + static_cast<std::size_t>(element / pack_size) * (Record::size * pack_size) +

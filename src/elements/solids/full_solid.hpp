@@ -57,7 +57,7 @@ class FullSolid final : public ElementGroup {
   template <class T>
   using Tensors = std::array<Matrix3<T>, Shape::points>;
 
-  static constexpr int own_history = 2;  // Jbar after the last increment, viscous dissipation; then the law's, by point
+  static constexpr int own_history = 3;  // Jbar, viscous dissipation and mean stress after the last increment; then the law's, by point
 
   int law_row(int point) const { return own_history + point * material_.law->history_size(); }
   template <class T>

@@ -135,7 +135,8 @@ template <class Shape>
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
   const Pack rate = volume_rate(k.mean_jacobian, old_jacobian, inverse_increment);
   const Pack length = reference[Record::length], mean_stress = viscosity.stress(length, rate);
-  dissipation += cycle.increment * (reference[Record::volume] * (mean_stress * (k.mean_jacobian * rate)));
+  const Pack old_stress(&history[2 * padded_size_ + element], std::experimental::element_aligned);
+  dissipation += reference[Record::volume] * viscous_work(old_stress, mean_stress, k.mean_jacobian - old_jacobian);
   const bool damped = material_.damping_beta > 0.0 && cycle.increment > 0.0;
   if (damped) dissipation += cycle.increment * add_damping(element, cycle, k, stress);
 
@@ -145,6 +146,7 @@ template <class Shape>
     scatter_subtract(forces[node], targets + node, Shape::nodes, cycle.forces.force);
   k.mean_jacobian.copy_to(&history[element], std::experimental::element_aligned);
   dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
+  mean_stress.copy_to(&history[2 * padded_size_ + element], std::experimental::element_aligned);
   return stable_increment(k, stress, points, viscosity.slope(length, rate), damped, reference);
 }
 

@@ -103,7 +103,8 @@ template <bool enhanced, bool damped>
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
   const Pack rate = volume_rate(invariant.jacobian, old_jacobian, inverse_increment);
   const Pack mean_stress = viscosity.stress(length, rate);
-  dissipation += cycle.increment * (volume * (mean_stress * (invariant.jacobian * rate)));
+  const Pack old_stress(&history[2 * padded_size_ + element], std::experimental::element_aligned);
+  dissipation += volume * viscous_work(old_stress, mean_stress, invariant.jacobian - old_jacobian);
   for (int k = 0; k < 9; ++k)
     stress.component[k] = volume * (stress.component[k] + mean_stress * invariant.cofactor.component[k]);
 
@@ -128,6 +129,7 @@ template <bool enhanced, bool damped>
 
   invariant.jacobian.copy_to(&history[element], std::experimental::element_aligned);
   dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
+  mean_stress.copy_to(&history[2 * padded_size_ + element], std::experimental::element_aligned);
   const TangentBound<Pack> bound{load(points.volumetric_modulus), load(points.shear_modulus)};
   const BrickStability stability{material_.density, damped ? material_.damping_beta : 0.0};
   return stability.increment(invariant, bound, q, viscosity.slope(length, rate), reference);

@@ -37,7 +37,7 @@ class ReducedBrick final : public ElementGroup {
   std::size_t bytes_per_element() const override;
 
  private:
-  static constexpr int own_history = 2;  // Jacobian after the last increment, viscous dissipation; then the law's
+  static constexpr int own_history = 3;  // Jacobian, viscous dissipation and viscous mean stress after the last increment; then the law's
 
   template <bool enhanced, bool damped>
   StableIncrement add_packs(std::span<const PackRun> runs, const ExplicitCycle& cycle,

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
 #include "elements/history_pack.hpp"
 #include "elements/nodal_packs.hpp"
@@ -72,7 +73,7 @@ void TrussGroup::set_undeformed_moduli() {
   initial_bound_ = 2.0 * batch.shear_modulus[0];
 }
 
-int TrussGroup::history_size() const { return dissipation_row() + 1 + (damped() ? 1 : 0); }
+int TrussGroup::history_size() const { return strain_row() + (damped() ? 1 : 0); }
 
 void TrussGroup::initialize_history(std::span<double> history) const {
   std::fill(history.begin(), history.end(), 0.0);
@@ -101,15 +102,16 @@ TrussGroup::Pulled TrussGroup::pull(const Batch& batch, std::int32_t first, int 
 
   const Pack rate = 2.0 * inverse_increment * (stretch - old_stretch) / (stretch + old_stretch);
   const Pack viscosity = cycle.linear_bulk_viscosity * std::sqrt(density_ * initial_modulus_) * length;
-  Pack viscous = viscosity * rate / square, power = viscosity * rate * rate;
+  Pack viscous = viscosity * rate / square;
   if (damped()) {
     const Pack strain_rate = inverse_increment * (strain - load_unaligned(row(strain_row())));
     store_unaligned(strain, row(strain_row()));
-    const Pack damping = damping_beta_ * initial_modulus_ * strain_rate;
-    viscous = viscous + damping;
-    power = power + damping * strain_rate;
+    viscous = viscous + damping_beta_ * initial_modulus_ * strain_rate;
   }
-  store_unaligned(load_unaligned(row(dissipation_row())) + cycle.increment * area_ * (length * power), row(dissipation_row()));
+  const Pack strain_change = 0.5 * ((stretch - old_stretch) * (stretch + old_stretch));
+  const Pack work = viscous_work(load_unaligned(row(viscous_row())), viscous, strain_change);
+  store_unaligned(load_unaligned(row(dissipation_row())) + area_ * (length * work), row(dissipation_row()));
+  store_unaligned(viscous, row(viscous_row()));
 
   const Pack modulus = 2.0 * load(batch.shear_modulus + slot);
   const Pack inverse_mass = 4.0 / (density_ * length * length);  // A / L * (1 / m + 1 / m)

@@ -38,7 +38,8 @@ class TrussGroup final : public ElementGroup {
 
   int stretch_row() const { return law_->history_size(); }
   int dissipation_row() const { return stretch_row() + 1; }
-  int strain_row() const { return dissipation_row() + 1; }
+  int viscous_row() const { return dissipation_row() + 1; }
+  int strain_row() const { return viscous_row() + 1; }
   bool damped() const { return damping_beta_ > 0.0; }
   double reference_length(std::int32_t element) const { return length_[element]; }
   double strain_at(std::int32_t element, const double* position) const;
