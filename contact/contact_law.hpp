@@ -31,9 +31,9 @@ struct ContactForce {
 /// An open point has no multiplier; its anchor follows it, so that friction knows how it moved in the increment in
 /// which it closes. `place`: in the frame of the master body.
 inline void open(ContactPoint& point, const Vector3<double>& place) {
-  point.multiplier = 0.0;
-  point.closed = 0.0;
+  point.multiplier = point.closed = point.stiff_force = 0.0;
   point.anchor = place.component;
+  point.stiff_friction = {};
 }
 
 /// Tangential part of the force: spring from the anchor, cut at Coulomb's limit; slipping drags the anchor along, and
@@ -70,6 +70,42 @@ void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, 
         value_of(place[i]) - value_of(nearest.distance) * value_of(nearest.normal[i]) - kept * value_of(stretch[i]);
 }
 
+/// Stiffness of the tangential spring under a Coulomb limit.
+inline double tangential_stiffness(const PenaltyParameters& parameters, double limit) {
+  return parameters.elastic_slip > 0.0 ? std::min(parameters.stiffness, limit / parameters.elastic_slip) : parameters.stiffness;
+}
+
+/// Energy that the tangential spring holds with a force under a Coulomb limit.
+inline double tangential_energy(const PenaltyParameters& parameters, double limit, const Vector3<double>& force) {
+  const double stiffness = tangential_stiffness(parameters, limit);
+  return stiffness > 0.0 ? 0.5 * dot(force, force) / stiffness : 0.0;
+}
+
+/// Displacement per tangential force, of a point that may be held in some directions: along `axis` (zero: there is none such) and
+/// across it.
+struct TangentialYielding {
+  Vector3<double> axis{};
+  double along = 0.0, across = 0.0;
+};
+
+/// Friction over a cycle of a tangential spring stiffer than an explicit cycle could follow: Coulomb's law at the end of the next
+/// increment (backward Euler), by when the force itself has moved the point. `stretch`: of the spring then if no friction acts.
+/// `slip`: by how much the anchor gives way. Stable and dissipative for any stiffness.
+struct StiffFriction {
+  Vector3<double> force, slip;
+};
+
+inline StiffFriction stiff_friction(double limit, double stiffness, const Vector3<double>& stretch,
+                                    const TangentialYielding& yielding) {
+  const auto along = dot(stretch, yielding.axis) * yielding.axis;
+  const auto sticking = (-stiffness / (1.0 + stiffness * yielding.across)) * (stretch - along) -
+                        (stiffness / (1.0 + stiffness * yielding.along)) * along;
+  const double size = std::sqrt(dot(sticking, sticking));
+  if (size <= limit) return {sticking, {}};
+  const double kept = limit / size;
+  return {kept * sticking, (1.0 - kept) * stretch};
+}
+
 /// Force over a cycle of a unilateral spring, stiffer than an explicit cycle could follow: that which gives the node just the
 /// energy that the spring loses between the middles of two increments (discrete gradient; Simo, Tarnow and Wong, Comput.
 /// Methods Appl. Mech. Engrg. 100, 1992), there the trapezoidal rule, stable for any stiffness. Pressure p(gap) = max(0,
@@ -89,14 +125,6 @@ inline double stiff_normal_force(double multiplier, double stiffness, double bef
   const double opening = after - before;  // it opens: f (opening + c f) = old_pressure^2 / (2 k)
   const double square = old_pressure * old_pressure / stiffness;
   return square / (opening + std::sqrt(opening * opening + 2.0 * yielding * square));
-}
-
-/// What the tangential spring of a closed point holds, without an elastic slip that the deck gives.
-inline double stretch_energy(const PenaltyParameters& parameters, const Vector3<double>& place,
-                             const SurfacePoint<double>& nearest, const ContactPoint& point) {
-  Vector3<double> stretch{place[0] - point.anchor[0], place[1] - point.anchor[1], place[2] - point.anchor[2]};
-  stretch = stretch - dot(stretch, nearest.normal) * nearest.normal;
-  return 0.5 * parameters.stiffness * dot(stretch, stretch);
 }
 
 /// `point`: history at the start on entry, at the end on return. Friction acts from the increment in which the point

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "constraints/rigid_body.hpp"
+#include "master_frame.hpp"
 #include "model/diagnostics.hpp"
 #include "slave_surface.hpp"
 
@@ -13,26 +13,12 @@ namespace balocco {
 
 namespace {
 
-/// Where the master body is: what turns a place in space into one in its frame, and forces back.
-struct MasterFrame {
-  Vector3<double> position;
-  Matrix3<double> rotation, inverse;
-
-  explicit MasterFrame(const RigidBodyState& master)
-      : position{master.position}, rotation(rotation_matrix(master)), inverse(transpose(rotation)) {}
-
-  Vector3<double> arm(const double* x) const { return Vector3<double>{x[0], x[1], x[2]} - position; }
-};
-
 template <class T>
 Matrix3<T> constant(const Matrix3<double>& matrix) {
   Matrix3<T> result;
   for (int i = 0; i < 9; ++i) result.component[i] = T(matrix.component[i]);
   return result;
 }
-
-/// Stiffness of a stiff spring over that of the pair: under a pressure p the penetration is then p h / (10 M).
-constexpr double stiff_factor = 20.0;
 
 InputError refused(const Model& model, const ContactPair& pair, const std::string& what) {
   return InputError(fmt::format("{}: error: *CONTACT PAIR: {}", model.where(pair.location), what));
@@ -122,93 +108,6 @@ void RigidContact::add_forces(const double* position, const RigidBodyState& mast
     double* sum = force + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
     for (int k = 0; k < 3; ++k) sum[k] += rounded(global[k], sum[3]);
   }
-}
-
-void RigidContact::choose_springs(const double* position, const RigidBodyState& master, const std::vector<bool>& stiff,
-                                  std::vector<ContactPoint>& points) const {
-  const MasterFrame frame(master);
-  for (std::int32_t i = 0; i < size(); ++i) {
-    auto& point = points[i];
-    const double spring = stiff[i] ? stiff_factor * stiffness_[i] : 0.0;
-    if (spring == point.stiff_spring) continue;
-    const double old_stiffness = point.stiff_spring > 0.0 ? point.stiff_spring : stiffness_[i];
-    const double new_stiffness = spring > 0.0 ? spring : stiffness_[i];
-    const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
-    const double gap = surface_.nearest(frame.inverse * arm).distance;
-    // Negative where a soft spring holds the node below the surface: the stiff one then begins down there.
-    if (point.closed > 0.0) point.multiplier = std::max(0.0, point.multiplier - old_stiffness * gap) + new_stiffness * gap;
-    point.stiff_spring = spring;
-  }
-}
-
-void RigidContact::add_stiff_forces(const StiffCycle& cycle, const RigidBodyState& master,
-                                    std::span<const SlaveFreedom> freedom, std::vector<ContactPoint>& points,
-                                    double* force) const {
-  for (std::int32_t i = 0; i < size(); ++i)
-    if (points[i].stiff_spring > 0.0) add_stiff_force(i, cycle, master, freedom[i], points[i], force);
-}
-
-void RigidContact::add_stiff_force(std::int32_t point, const StiffCycle& cycle, const RigidBodyState& master,
-                                   const SlaveFreedom& freedom, ContactPoint& state, double* force) const {
-  const MasterFrame frame(master);
-  const auto at = 4 * static_cast<std::ptrdiff_t>(nodes_[point]);
-  const double *x = cycle.position + at, *v = cycle.velocity + at;
-  double* sum = force + at;
-  const auto arm = frame.arm(x);
-  const auto place = frame.inverse * arm;
-  const auto below = Vector3<double>{master.velocity} + cross(Vector3<double>{master.angular_velocity}, arm);
-  const double average = 0.5 * (cycle.previous + cycle.next);
-  const Vector3<double> now{v[0], v[1], v[2]};
-  Vector3<double> then = now + (average * freedom.inverse_mass) * Vector3<double>{sum[0], sum[1], sum[2]};
-  for (int i = 0; i < freedom.held; ++i) {
-    const Vector3<double> direction{freedom.direction[i]};
-    then = then + (freedom.velocity[i] - dot(then, direction)) * direction;
-  }
-  const auto on_the_way = 0.5 * cycle.next * (then - below);
-  if (state.closed == 0.0 && surface_.surely_outside(place) &&
-      surface_.surely_outside(frame.inverse * (arm + on_the_way))) {
-    open(state, place);
-    return;
-  }
-  const auto nearest = surface_.nearest(place);
-  const auto normal = frame.rotation * nearest.normal;
-  auto free = normal;
-  for (int i = 0; i < freedom.held; ++i) {
-    const Vector3<double> direction{freedom.direction[i]};
-    free = free - dot(free, direction) * direction;
-  }
-  const double before = nearest.distance - 0.5 * cycle.previous * dot(now - below, normal);
-  const double after = nearest.distance + dot(on_the_way, normal);
-  const double yielding = 0.5 * cycle.next * average * freedom.inverse_mass * dot(free, normal);
-  ContactForce<double> contact;
-  contact.pressure = stiff_normal_force(state.multiplier, state.stiff_spring, before, after, yielding);
-  state.stiff_force = contact.pressure;
-  if (!(contact.pressure > 0.0)) {
-    if (friction_ > 0.0 && state.closed > 0.0)  // what the tangential spring still holds is lost, too
-      state.frictional_dissipation += stretch_energy(parameters(point), place, nearest, state);
-    open(state, place);
-    return;
-  }
-  contact.normal = contact.pressure * nearest.normal;
-  if (friction_ > 0.0) add_friction(parameters(point), place, nearest, state, contact);
-  state.closed = 1.0;
-  if (nearest.distance > 0.0) state.multiplier = std::max(0.0, state.multiplier - state.stiff_spring * nearest.distance);
-  const auto global = frame.rotation * (contact.normal + contact.friction);
-  for (int k = 0; k < 3; ++k) sum[k] += rounded(global[k], sum[3]);
-}
-
-ContactForce<double> RigidContact::acting_force(std::int32_t point, const Vector3<double>& place,
-                                                const ContactPoint& state) const {
-  ContactPoint scratch = state;
-  if (state.stiff_spring == 0.0) return contact_force(surface_, parameters(point), place, scratch);
-  ContactForce<double> contact;
-  contact.closed = state.closed > 0.0;
-  if (!contact.closed) return contact;
-  const auto nearest = surface_.nearest(place);
-  contact.pressure = state.stiff_force;
-  contact.normal = contact.pressure * nearest.normal;
-  if (friction_ > 0.0) add_friction(parameters(point), place, nearest, scratch, contact);
-  return contact;
 }
 
 RigidContact::Deepest RigidContact::deepest(const double* position, const RigidBodyState& master,
@@ -309,7 +208,8 @@ RigidContact::Output RigidContact::output(std::int32_t point, const double* posi
   // A multiplier holds without a stretch: nothing is stored where the gap is zero.
   const double spring = state.stiff_spring > 0.0 ? state.stiff_spring : stiffness_[point];
   const double stretched = std::max(0.0, state.multiplier - spring * output.gap);
-  output.spring_energy = 0.5 * (stretched * stretched - state.multiplier * state.multiplier) / spring;
+  const double held = std::max(0.0, state.multiplier);
+  output.spring_energy = 0.5 * (stretched * stretched - held * held) / spring;
   if (contact.tangential_stiffness > 0.0) output.spring_energy += 0.5 * square / contact.tangential_stiffness;
   return output;
 }
@@ -352,7 +252,7 @@ ContactResultant RigidContact::resultant(const Communicator& communicator, const
 
 void RigidContact::add_spring_stiffness(const std::vector<bool>& stiff, std::span<double> sum) const {
   for (std::int32_t i = 0; i < size(); ++i)
-    if (!stiff[i] || friction_ > 0.0) sum[nodes_[i]] += stiffness_[i];
+    if (!stiff[i]) sum[nodes_[i]] += stiffness_[i];
 }
 
 }  // namespace balocco

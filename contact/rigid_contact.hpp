@@ -22,6 +22,8 @@
 
 namespace balocco {
 
+struct MasterFrame;
+
 /// Force of one contact point and its derivatives, for assembly by the implicit solver.
 struct ContactTangent {
   std::int32_t node = -1;  // local slave node
@@ -61,7 +63,6 @@ class RigidContact {
   std::span<const std::int32_t> nodes() const { return nodes_; }  // local slave nodes
   std::int32_t master_body() const { return master_body_; }       // row of Model::rigid_bodies
   double area(std::int32_t point) const { return area_[point]; }
-  bool rubs() const { return friction_ > 0.0; }
   double normal_stiffness(std::int32_t point) const { return stiffness_[point]; }
 
   /// At the start of a step: points of a pair that is not `active` open, and open points stand over the surface where
@@ -80,8 +81,8 @@ class RigidContact {
                       std::vector<ContactPoint>& points) const;
 
   /// Explicit: as add_forces, for the points with stiff springs, which add_forces leaves out. `force` must be whole (all ranks
-  /// and sources), `freedom` has an entry a point. A multiplier from statics ends with the contact: it shrinks while a closed
-  /// point stands above the surface.
+  /// and sources), `freedom` has an entry a point. A multiplier from statics ends with the contact: it shrinks
+  /// when its point rises. Friction is part of it, as stiff as the normal spring but for an ELASTIC SLIP of the deck.
   void add_stiff_forces(const StiffCycle& cycle, const RigidBodyState& master, std::span<const SlaveFreedom> freedom,
                         std::vector<ContactPoint>& points, double* force) const;
 
@@ -126,16 +127,20 @@ class RigidContact {
   ContactResultant resultant(const Communicator& communicator, const double* position, const RigidBodyState& master,
                              const std::vector<ContactPoint>& points) const;
 
-  /// Adds the stiffness of the springs that an explicit cycle must follow to `sum` (one a node): of points that `stiff` names
-  /// that of friction alone.
+  /// Adds the stiffness of the springs that an explicit cycle must follow to `sum` (one a node): of points that `stiff` does not
+  /// name.
   void add_spring_stiffness(const std::vector<bool>& stiff, std::span<double> sum) const;
 
  private:
   PenaltyParameters parameters(std::int32_t point) const { return {stiffness_[point], friction_, elastic_slip_}; }
   /// Force of a point whose history `state` is up to date.
   ContactForce<double> acting_force(std::int32_t point, const Vector3<double>& place, const ContactPoint& state) const;
+  struct StiffMotion;
+  void change_spring(std::int32_t point, const Vector3<double>& place, double spring, ContactPoint& state) const;
   void add_stiff_force(std::int32_t point, const StiffCycle& cycle, const RigidBodyState& master,
                        const SlaveFreedom& freedom, ContactPoint& state, double* force) const;
+  void advance_stiff_friction(const MasterFrame& frame, const StiffMotion& motion, const SlaveFreedom& freedom,
+                              const SurfacePoint<double>& nearest, double old_pressure, ContactPoint& state) const;
 
   std::int32_t master_body_ = -1;
   MasterSurface surface_;

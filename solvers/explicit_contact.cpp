@@ -18,10 +18,8 @@ ExplicitContact::ExplicitContact(const Analysis& analysis, const Step& step, con
               .master = bodies.yielding(static_cast<std::size_t>(contact.master_body())),
               .freedom = std::vector<SlaveFreedom>(static_cast<std::size_t>(contact.size())),
               .stiff = {}};
-    // Rubbing points keep the spring of the surfaces, on whose stretch friction counts; single nodes stand for no face whose
-    // pressure would ask for a harder one.
-    const bool hard = !contact.rubs() &&
-                      analysis.model.surfaces[analysis.model.contact_pairs[row].slave].kind == Surface::Kind::element_faces;
+    // Single nodes stand for no face whose pressure would ask for a harder spring.
+    const bool hard = analysis.model.surfaces[analysis.model.contact_pairs[row].slave].kind == Surface::Kind::element_faces;
     for (std::int32_t point = 0; point < contact.size(); ++point) {
       auto& freedom = pair.freedom[point];
       freedom.inverse_mass = inverse_mass[contact.nodes()[point]];
@@ -64,13 +62,15 @@ void ExplicitContact::report_overclosure(const Analysis& analysis, Observer& obs
                         RigidContact::Which::open);
     const auto id = node >= 0 ? model.nodes.id[analysis.domain.node_row[node]] : std::int64_t{-1};
     const auto deepest = analysis.communicator.minimum(Communicator::Located{-depth, id});
+    const bool thrown = analysis.communicator.any(std::ranges::count(pair.stiff, false) > 0);
     if (-deepest.value <= touching) continue;
     const auto& definition = model.contact_pairs[pair.row];
     observer.log(fmt::format(
-        "{}: warning: *CONTACT PAIR: node {} of {} starts {:.4g} below {}, the deepest of its surface, and will be thrown out; "
-        "move the surfaces apart, or close them in a static step first",
+        "{}: warning: *CONTACT PAIR: node {} of {} starts {:.4g} below {}, the deepest of its surface, and {}; move the surfaces "
+        "apart, or close them in a static step first",
         model.where(definition.location), deepest.payload, model.surfaces[definition.slave].name, -deepest.value,
-        model.surfaces[definition.master].name));
+        model.surfaces[definition.master].name,
+        thrown ? "will be thrown out" : "stays there until it rises: nothing pushes it out"));
   }
 }
 

@@ -8,9 +8,9 @@
 
 namespace balocco {
 
-/// A node of a face that is free to move and rubs nowhere, against a master all whose motion is prescribed, has a stiff normal
-/// spring: its force is found together with the motion it causes, so that it limits no increment. Nodes with friction, of rigid
-/// bodies, of node sets, nodes that are held and nodes against free masters have softer springs, which the increment must follow.
+/// A node of a face that is free to move, against a master all whose motion is prescribed, has stiff springs: their forces are
+/// found together with the motion they cause, so that they limit no increment. Nodes of rigid bodies, of node sets, nodes that are
+/// held and nodes against free masters have softer springs, which the increment must follow.
 class ExplicitContact {
  public:
   ExplicitContact(const Analysis& analysis, const Step& step, const NodalConstraints& constraints,

@@ -35,6 +35,7 @@ struct ContactPoint {
   double frictional_dissipation = 0.0;
   double stiff_spring = 0.0;  // explicit: normal stiffness that `multiplier` goes with; 0: that of the pair
   double stiff_force = 0.0;   // and its force at the last instant, which where the point is does not tell
+  Point stiff_friction{};     // and that of friction, on the slave, in the frame of the master body
 };
 
 /// Work done on a node, by kind: up to now, explicit: up to the middle of the increment to come. Copies of a shared node hold the same bits; sums are taken over owners.

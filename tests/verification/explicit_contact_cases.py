@@ -10,7 +10,7 @@ import numpy as np
 from explicit_cases import Job, check, check_energy, failures
 
 
-def block(nx, ny, nz, size, element="C3D8R", height=0.0, law="*ELASTIC\n10., 0.3", density=1e-9):
+def block(nx, ny, nz, size, element="C3D8R", height=0.0, law="*ELASTIC\n10., 0.3", density=1e-9, friction=0.0):
     """Bricks of `size` (mm, t, s), the lowest layer's faces SOLE on the profile GROUND; node sets LOW, TOP, ALL."""
     lines = ["*HEADING", "block", "*NODE, NSET=ALL"]
     number = lambda i, j, k: 1 + i + (nx + 1) * (j + (ny + 1) * k)
@@ -33,23 +33,24 @@ def block(nx, ny, nz, size, element="C3D8R", height=0.0, law="*ELASTIC\n10., 0.3
     lines += ["*ELSET, ELSET=SOLE"] + [str(e) for e in sole]
     lines += ["*SOLID SECTION, ELSET=BLOCK, MATERIAL=M", "*MATERIAL, NAME=M", law, "*DENSITY", str(density),
               "*SURFACE, NAME=SLAVE", "SOLE, S3", "*SURFACE, NAME=GROUND, TYPE=SEGMENTS", "START, -100., 0.", "LINE, 100., 0.",
-              "*RIGID BODY, REF NODE=9000, ANALYTICAL SURFACE=GROUND", "*SURFACE INTERACTION, NAME=I", "FRICTION",
+              "*RIGID BODY, REF NODE=9000, ANALYTICAL SURFACE=GROUND", "*SURFACE INTERACTION, NAME=I", f"*FRICTION\n{friction}",
               "*CONTACT PAIR, INTERACTION=I", "SLAVE, GROUND", "*BOUNDARY", "9000, 1, 6"]
-    return "\n".join(lines).replace("\nFRICTION", "") + "\n"
+    return "\n".join(lines) + "\n"
 
 
 ENERGIES = "*OUTPUT, HISTORY, TIME INTERVAL={}\n*NODE OUTPUT, NSET=NREF\nRF2\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLCW, ALLVD, ALLWK, ETOTAL\n*END STEP\n"
 
 
-def pressed_block(job):
+def pressed_block(job, friction=0.0):
     """A rubber block pressed 20 %: the same force in statics and, slowly, in the explicit loop; it stands on the ground."""
     rubber = "*HYPERELASTIC, NEO HOOKE\n0.5, 0.1"
-    deck = block(3, 4, 3, (5.0, 5.0, 5.0), law=rubber) + "*AMPLITUDE, NAME=RISE, DEFINITION=SMOOTH STEP\n0., 0., 8e-3, 1.\n"
+    deck = block(3, 4, 3, (5.0, 5.0, 5.0), law=rubber, friction=friction) + "*AMPLITUDE, NAME=RISE, DEFINITION=SMOOTH STEP\n0., 0., 8e-3, 1.\n"
     deck += "*STEP, NLGEOM\n"
     job.run(deck + "*STATIC\n0.5, 1.\n*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\nTOP, 2, 2, -4.\n" + ENERGIES.format(0.5))
     still = abs(job.history("node_9000", "RF2")[1][-1])
     work = abs(job.history("energy", "ALLWK")[1][-1])
-    check("energy of hard contact", job.history("energy", "ALLCW")[1][-1] / work, 0.0, 5e-3)  # the penetration that statics leave
+    if friction == 0.0:  # else ALLCW is what the tangential springs hold
+        check("energy of hard contact", job.history("energy", "ALLCW")[1][-1] / work, 0.0, 5e-3)  # the penetration that statics leave
     check("balance of energies in statics", job.history("energy", "ETOTAL")[1][-1] / work, 0.0, 0.02)
     explicit = "*STEP\n*DYNAMIC, EXPLICIT\n, 10e-3\n*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\n*BOUNDARY, AMPLITUDE=RISE\nTOP, 2, 2, -4.\n"
     job.run(deck.replace("*STEP, NLGEOM\n", "") + explicit + ENERGIES.format(1e-4))
@@ -58,6 +59,11 @@ def pressed_block(job):
     penetration = float((job.folder / f"{job.name}.sta").read_text().strip().splitlines()[-3].split()[12])
     check("greatest penetration (mm), told in .sta", penetration, 0.0, 0.12)
     check_energy(job, 1e-2)
+
+
+def rubbing_block(job):
+    """As pressed_block, with friction."""
+    pressed_block(job, friction=0.5)
 
 
 def lifted_block(job):
@@ -119,10 +125,21 @@ def past_the_end(job):
 
 
 def below_the_ground(job):
-    """A block that starts below the ground: node and depth are told, and the energy that throws it out ends the run."""
-    job.run(block(1, 1, 1, (5.0, 5.0, 5.0), height=-0.25) + "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-5\n" + ENERGIES.format(1e-6),
-            expected_status=3)
+    """A block that starts below the ground is told with node and depth, and rests there: nothing throws it out; lifted, it comes
+    down on the ground itself."""
+    fall = "*DLOAD\nBLOCK, GRAV, {}, 0., {}, 0.\n"
+    deck = block(1, 1, 1, (5.0, 5.0, 5.0), height=-0.25, friction=0.3)
+    lift = fall.format(4e5, 1.0) + ENERGIES.format(1e-4)
+    drop = fall.format(4e5, -1.0) + "*OUTPUT, FIELD, NUMBER INTERVAL=1\n*NODE OUTPUT\nU\n" + ENERGIES.format(1e-4)
+    rest = fall.format(9810.0, -1.0) + ENERGIES.format(1e-5)
+    steps = [f"*STEP\n*DYNAMIC, EXPLICIT, DIRECT\n8e-6, {duration}\n" + what for duration, what in ((2e-3, rest), (2e-3, lift), (8e-3, drop))]
+    job.run(deck + "".join(step.replace("*DLOAD", "*DLOAD, OP=NEW") for step in steps))
     check("warning", float("node 1 of SLAVE starts 0.25 below GROUND" in job.log()), 1.0, 0.0)
+    gravity = 1e-9 * 125.0 * 9810.0
+    check("mean load on the ground", np.abs(job.history("node_9000", "RF2", 1)[1]).mean(), gravity, 0.1)
+    check_energy(job, 1e-2, steps=(1, 2, 3))
+    lowest = (job.mesh("C3D8R")[0] + job.frame("U", -1, 3))[:-1, 1].min()
+    check("lowest node after it came down", min(lowest, 0.0), 0.0, 0.05)
 
 
 def rigid_part(job):
@@ -139,7 +156,7 @@ def rigid_part(job):
     check("a run that resumes", float(np.isfinite(job.history("energy", "ETOTAL", 3)[1]).all()), 1.0, 0.0)
 
 
-CASES = {case.__name__: case for case in (pressed_block, lifted_block, velocities_set_once, lost_energy,
+CASES = {case.__name__: case for case in (pressed_block, rubbing_block, lifted_block, velocities_set_once, lost_energy,
                                           blown_up_at_the_end, past_the_end, below_the_ground, rigid_part)}
 
 if __name__ == "__main__":

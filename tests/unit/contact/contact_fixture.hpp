@@ -39,6 +39,10 @@ struct Contact {
   }
 
   double k() const { return pair.normal_stiffness(0); }
+  /// Of node 0, in the frame of the master body.
+  Point position_of() const {
+    return {position[0] - master.position[0], position[1] - master.position[1], position[2] - master.position[2]};
+  }
   void place(const Point& at) { std::copy(at.begin(), at.end(), position.begin()); }
   void start_step(bool active = true) { pair.start_step(position.data(), master, active, points); }
   /// A step starts with node 0 standing there.

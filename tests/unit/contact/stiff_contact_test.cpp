@@ -12,12 +12,13 @@ using namespace test;
 
 /// Node 0 alone, as a mass that falls on the road.
 struct Falling {
-  Contact contact{road({line({-300, 0}, {300, 0})}), 0.0};
+  Contact contact;
   std::vector<SlaveFreedom> freedom;
   std::vector<double> velocity, force;
-  double mass, dt, load = 0.0;
+  double mass, dt, load = 0.0, pull = 0.0;
 
-  Falling(double the_mass, double the_increment) : mass(the_mass), dt(the_increment) {
+  Falling(double the_mass, double the_increment, double mu = 0.0)
+      : contact(road({line({-300, 0}, {300, 0})}), mu), mass(the_mass), dt(the_increment) {
     contact.pair.choose_springs(contact.position.data(), contact.master, std::vector<bool>(contact.pair.size(), true),
                                 contact.points);
     freedom.resize(contact.pair.size());
@@ -27,6 +28,8 @@ struct Falling {
 
   double& height() { return contact.position[2]; }
   double& speed() { return velocity[2]; }
+  double& along() { return velocity[0]; }
+  ContactPoint& point() { return contact.points[0]; }
 
   /// Forces are rounded to this at the most.
   double quantum() const { return std::ldexp(1e3 * contact.k(), -50); }
@@ -35,11 +38,14 @@ struct Falling {
   double cycle(bool first = false) {
     force.assign(contact.position.size(), 0.0);
     for (std::size_t i = 3; i < force.size(); i += 4) force[i] = rounding_constant(1e3 * contact.k());
+    force[0] = pull;
     force[2] = load;
     const StiffCycle around{contact.position.data(), velocity.data(), first ? 0.0 : dt, dt};
     contact.pair.add_stiff_forces(around, contact.master, freedom, contact.points, force.data());
     speed() += 0.5 * (around.previous + around.next) * force[2] / mass;
+    along() += 0.5 * (around.previous + around.next) * force[0] / mass;
     height() += dt * speed();
+    contact.position[0] += dt * along();
     return force[2] - load;
   }
 };
@@ -72,6 +78,70 @@ TEST(StiffContact, AnImportedForceStaysAndEndsWithTheContact) {
   EXPECT_GT(body.height(), 0.0);
   EXPECT_EQ(point.multiplier, 0.0);
   EXPECT_EQ(point.closed, 0.0);
+}
+
+TEST(StiffContact, AForceImportedAboveTheSurfaceStays) {
+  Falling body(0.01, 1e-3, friction);
+  const double held = 0.3, gap = 1e-3, k = body.contact.k();
+  body.height() = gap;  // within the tolerance to which statics close a gap
+  body.point() = {.multiplier = held + k * gap, .closed = 1.0, .anchor = body.contact.position_of()};
+  body.contact.pair.choose_springs(body.contact.position.data(), body.contact.master,
+                                   std::vector<bool>(body.contact.pair.size(), true), body.contact.points);
+  body.load = -held;
+  for (int i = 0; i < 50; ++i) EXPECT_NEAR(body.cycle(i == 0), held, 10 * body.quantum());
+  EXPECT_NEAR(body.height(), gap, 1e-9);
+}
+
+TEST(StiffFriction, AMassThatSlidesLosesWhatIsBookedAndStops) {
+  for (const double ratio : {30.0, 1000.0}) {  // k dt^2 / m
+    Falling body(1.0, 1.0, friction);
+    body.mass = body.contact.k() / ratio;
+    body.freedom[0].inverse_mass = 1.0 / body.mass;
+    const double pressure = 1e-3 * body.contact.k(), braking = friction * pressure / body.mass;
+    body.point() = {.multiplier = pressure, .closed = 1.0, .anchor = body.contact.position_of()};
+    body.point().stiff_spring = body.contact.k();
+    body.point().stiff_force = pressure;
+    body.load = -pressure;
+    body.along() = 20.5 * braking;
+    const double start = body.contact.position[0], energy = 0.5 * body.mass * body.along() * body.along();
+    for (int i = 0; i < 60; ++i) body.cycle();
+    EXPECT_NEAR(body.along(), 0.0, 1e-6 * braking) << ratio;
+    EXPECT_NEAR(body.contact.position[0] - start, 200.0 * braking, braking) << ratio;  // the sum of 19.5, 18.5 ... 0.5
+    EXPECT_NEAR(body.point().frictional_dissipation, energy, 1e-6 * energy) << ratio;
+  }
+}
+
+TEST(StiffFriction, APullBelowTheLimitMovesNothingOn) {
+  Falling body(0.01, 1e-3, friction);
+  const double pressure = 0.3;
+  body.point() = {.multiplier = pressure, .closed = 1.0, .anchor = body.contact.position_of()};
+  body.contact.pair.choose_springs(body.contact.position.data(), body.contact.master,
+                                   std::vector<bool>(body.contact.pair.size(), true), body.contact.points);
+  body.load = -pressure;
+  body.pull = 0.45 * friction * pressure;  // at once: the spring swings to twice its stretch at the most
+  const double start = body.contact.position[0];
+  for (int i = 0; i < 2000; ++i) body.cycle(i == 0);
+  EXPECT_NEAR(body.contact.position[0] - start, body.pull / body.point().stiff_spring, 1e-9);  // the spring's own stretch
+  EXPECT_NEAR(body.force[0], 0.0, 1e-9 * pressure);
+  EXPECT_EQ(body.point().slip, 0.0);
+}
+
+TEST(StiffFriction, ADirectionThatIsHeldIsNotPushed) {
+  // Dragged at 45 degrees across the direction that is held: Coulomb's force against the slip all the same.
+  Falling body(0.01, 1e-3, friction);
+  const double pressure = 0.3;
+  body.point() = {.multiplier = pressure, .closed = 1.0, .anchor = body.contact.position_of()};
+  body.contact.pair.choose_springs(body.contact.position.data(), body.contact.master,
+                                   std::vector<bool>(body.contact.pair.size(), true), body.contact.points);
+  body.load = -pressure;
+  body.freedom[0].held = 1;
+  body.freedom[0].direction[0] = {std::sqrt(0.5), std::sqrt(0.5), 0};
+  body.freedom[0].velocity[0] = 1.0;
+  body.velocity[0] = body.velocity[1] = std::sqrt(0.5);
+  body.cycle(true);
+  EXPECT_NEAR(std::hypot(body.force[0], body.force[1]), friction * pressure, 1e-9);
+  EXPECT_NEAR(body.force[0], body.force[1], 1e-9);
+  EXPECT_LT(body.force[0], 0.0);
 }
 
 TEST(StiffContact, TheForceOfAClosedPointSurvivesTheChoiceOfSprings) {

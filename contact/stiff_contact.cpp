@@ -1,0 +1,180 @@
+// Springs stiffer than an explicit cycle could follow: their forces are found together with the motion that they cause.
+#include <algorithm>
+#include <cmath>
+
+#include "master_frame.hpp"
+#include "rigid_contact.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// Stiffness of a stiff spring over that of the pair: under a pressure p the penetration is then p h / (10 M).
+constexpr double stiff_factor = 20.0;
+
+/// What is left of a vector in the directions in which a point is free.
+Vector3<double> free_part(const SlaveFreedom& freedom, Vector3<double> vector) {
+  for (int i = 0; i < freedom.held; ++i) {
+    const Vector3<double> direction{freedom.direction[i]};
+    vector = vector - dot(vector, direction) * direction;
+  }
+  return vector;
+}
+
+/// `across`: displacement of a free point per force. A held direction stiffens the tangential plane along its shadow there, two leave
+/// it soft along the shadow of the third.
+TangentialYielding tangential_yielding(const SlaveFreedom& freedom, const Vector3<double>& normal, double across) {
+  if (freedom.held == 0) return {.across = across};
+  const Vector3<double> first{freedom.direction[0]};
+  const auto kept = freedom.held == 1 ? first : cross(first, Vector3<double>{freedom.direction[1]});
+  const auto shadow = kept - dot(kept, normal) * normal;
+  const double square = dot(shadow, shadow);
+  TangentialYielding yielding{.along = freedom.held == 1 ? across * (1.0 - square) : across * square,
+                              .across = freedom.held == 1 ? across : 0.0};
+  if (square > 1e-20) yielding.axis = (1.0 / std::sqrt(square)) * shadow;
+  return yielding;
+}
+
+}  // namespace
+
+/// A stiff point on its way over the cycle, seen from the master body: global directions, without the force of its own contact.
+struct RigidContact::StiffMotion {
+  Vector3<double> arm, before, after;  // place; motion over the increment before, and over the next one
+  double yielding = 0.0;               // motion over the next increment per force
+
+  StiffMotion(const MasterFrame& frame, const StiffCycle& cycle, const RigidBodyState& master, const SlaveFreedom& freedom,
+              std::ptrdiff_t at, const double* force)
+      : arm(frame.arm(cycle.position + at)) {
+    const double* const v = cycle.velocity + at;
+    const auto below = Vector3<double>{master.velocity} + cross(Vector3<double>{master.angular_velocity}, arm);
+    const double average = 0.5 * (cycle.previous + cycle.next);
+    const Vector3<double> now{v[0], v[1], v[2]};
+    auto then = free_part(freedom, now + (average * freedom.inverse_mass) * Vector3<double>{force[0], force[1], force[2]});
+    for (int i = 0; i < freedom.held; ++i) then = then + freedom.velocity[i] * Vector3<double>{freedom.direction[i]};
+    before = cycle.previous * (now - below);
+    after = cycle.next * (then - below);
+    yielding = cycle.next * average * freedom.inverse_mass;
+  }
+};
+
+void RigidContact::choose_springs(const double* position, const RigidBodyState& master, const std::vector<bool>& stiff,
+                                  std::vector<ContactPoint>& points) const {
+  const MasterFrame frame(master);
+  for (std::int32_t i = 0; i < size(); ++i) {
+    auto& point = points[i];
+    const double spring = stiff[i] ? stiff_factor * stiffness_[i] : 0.0;
+    if (spring == point.stiff_spring) continue;
+    const auto place = frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
+    if (point.closed > 0.0)
+      change_spring(i, place, spring, point);
+    else if (spring > 0.0 && !surface_.surely_outside(place))
+      point.multiplier = std::min(0.0, spring * surface_.nearest(place).distance);  // below the surface it begins down there
+    point.stiff_spring = spring;
+  }
+}
+
+/// The anchor is where the spring starts along the surface, and as high above it as statics left the point.
+void RigidContact::change_spring(std::int32_t i, const Vector3<double>& place, double spring, ContactPoint& point) const {
+  const auto nearest = surface_.nearest(place);
+  const auto acting = acting_force(i, place, point);
+  const double new_stiffness = spring > 0.0 ? spring : stiffness_[i];
+  // Negative where a soft spring holds the node below the surface: the stiff one then begins down there.
+  point.multiplier = acting.pressure + new_stiffness * nearest.distance;
+  point.stiff_force = acting.pressure;
+  point.stiff_friction = acting.friction.component;
+  const double stiffness = tangential_stiffness({new_stiffness, friction_, elastic_slip_}, friction_ * acting.pressure);
+  auto anchor = place - std::min(0.0, nearest.distance) * nearest.normal;
+  if (stiffness > 0.0) anchor = anchor + (1.0 / stiffness) * acting.friction;
+  point.anchor = anchor.component;
+}
+
+void RigidContact::add_stiff_forces(const StiffCycle& cycle, const RigidBodyState& master,
+                                    std::span<const SlaveFreedom> freedom, std::vector<ContactPoint>& points,
+                                    double* force) const {
+  for (std::int32_t i = 0; i < size(); ++i)
+    if (points[i].stiff_spring > 0.0) add_stiff_force(i, cycle, master, freedom[i], points[i], force);
+}
+
+void RigidContact::add_stiff_force(std::int32_t point, const StiffCycle& cycle, const RigidBodyState& master,
+                                   const SlaveFreedom& freedom, ContactPoint& state, double* force) const {
+  const MasterFrame frame(master);
+  const auto at = 4 * static_cast<std::ptrdiff_t>(nodes_[point]);
+  double* sum = force + at;
+  StiffMotion motion(frame, cycle, master, freedom, at, sum);
+  const auto place = frame.inverse * motion.arm;
+  if (state.closed == 0.0 && surface_.surely_outside(place) &&
+      surface_.surely_outside(frame.inverse * (motion.arm + 0.5 * motion.after))) {
+    open(state, place);
+    return;
+  }
+  const auto nearest = surface_.nearest(place);
+  const auto normal = frame.rotation * nearest.normal;
+  const auto free_normal = free_part(freedom, normal);
+  const double before = nearest.distance - 0.5 * dot(motion.before, normal);
+  const double after = nearest.distance + 0.5 * dot(motion.after, normal);
+  const double old_pressure = state.stiff_force;
+  state.stiff_force = stiff_normal_force(state.multiplier, state.stiff_spring, before, after,
+                                         0.5 * motion.yielding * dot(free_normal, normal));
+  motion.after = motion.after + (motion.yielding * state.stiff_force) * free_normal;
+  if (friction_ > 0.0) advance_stiff_friction(frame, motion, freedom, nearest, old_pressure, state);
+  if (!(state.stiff_force > 0.0)) {
+    // What began below the surface goes on from the highest place to which it has risen.
+    const double highest = state.multiplier < 0.0 ? std::max(state.multiplier, state.stiff_spring * nearest.distance) : 0.0;
+    open(state, place);
+    state.multiplier = std::min(0.0, highest);
+    return;
+  }
+  state.closed = 1.0;
+  // A multiplier from statics ends as the point rises above where it was found, so that nothing pushes across a gap.
+  const double rise = std::min(nearest.distance, dot(place - Vector3<double>{state.anchor}, nearest.normal));
+  if (rise > 0.0) state.multiplier = std::max(0.0, state.multiplier - state.stiff_spring * rise);
+  const auto global = state.stiff_force * normal + frame.rotation * Vector3<double>{state.stiff_friction};
+  for (int k = 0; k < 3; ++k) sum[k] += rounded(global[k], sum[3]);
+}
+
+/// What friction does over the increment before, half with its old force, half with the new one, and what leaves its spring, is
+/// dissipated: so the balance of energies closes exactly.
+void RigidContact::advance_stiff_friction(const MasterFrame& frame, const StiffMotion& motion, const SlaveFreedom& freedom,
+                                          const SurfacePoint<double>& nearest, double old_pressure,
+                                          ContactPoint& state) const {
+  const PenaltyParameters parameters{state.stiff_spring, friction_, elastic_slip_};
+  const double limit = friction_ * state.stiff_force, old_limit = friction_ * old_pressure;
+  const Vector3<double> old_friction{state.stiff_friction};
+  Vector3<double> friction{};
+  if (state.stiff_force > 0.0) {
+    const auto place = frame.inverse * motion.arm;
+    const auto foot = place - nearest.distance * nearest.normal;
+    if (state.closed == 0.0) state.anchor = foot.component;  // it sticks where it comes down
+    auto stretch = foot - Vector3<double>{state.anchor} + frame.inverse * motion.after;
+    stretch = stretch - dot(stretch, nearest.normal) * nearest.normal;
+    const auto normal = frame.rotation * nearest.normal;
+    auto yielding = tangential_yielding(freedom, normal, motion.yielding);
+    yielding.axis = frame.inverse * yielding.axis;
+    const auto found = stiff_friction(limit, tangential_stiffness(parameters, limit), stretch, yielding);
+    friction = found.force;
+    state.anchor = (Vector3<double>{state.anchor} + found.slip).component;
+    state.slip += std::sqrt(dot(found.slip, found.slip));
+  }
+  state.frictional_dissipation -= 0.5 * dot(old_friction + friction, frame.inverse * motion.before) +
+                                  tangential_energy(parameters, limit, friction) -
+                                  tangential_energy(parameters, old_limit, old_friction);
+  state.stiff_friction = friction.component;
+}
+
+/// Force of a point whose history `state` is up to date.
+ContactForce<double> RigidContact::acting_force(std::int32_t point, const Vector3<double>& place,
+                                                const ContactPoint& state) const {
+  ContactPoint scratch = state;
+  if (state.stiff_spring == 0.0) return contact_force(surface_, parameters(point), place, scratch);
+  ContactForce<double> contact;
+  contact.closed = state.closed > 0.0;
+  if (!contact.closed) return contact;
+  contact.pressure = state.stiff_force;
+  contact.normal = contact.pressure * surface_.nearest(place).normal;
+  contact.friction = Vector3<double>{state.stiff_friction};
+  contact.tangential_stiffness =
+      tangential_stiffness({state.stiff_spring, friction_, elastic_slip_}, friction_ * contact.pressure);
+  return contact;
+}
+
+}  // namespace balocco
