@@ -18,14 +18,18 @@ LINE, 100., 0.
 SKIN, FLOOR"""
 
 
-@problem("HERTZ-SPH", "sphere R 50, E 2e4, nu 0.3, pressed 0.125 against a rigid plane: half of two equal spheres; a quarter",
-         "Hertz; geometry of Code_Aster ssnv104", {"radius of contact": (2.5, 0.05), "p0": (699.6, 0.05), "force, kN": (9.159, 0.05)},
+@problem("HERTZ-SPH", "sphere R 50, E 2e4, nu 0.3, pressed 1/32 against a rigid plane: half of two equal spheres; a quarter",
+         "Hertz; geometry of Code_Aster ssnv104", {"radius of contact": (1.25, 0.05), "p0": (349.79, 0.05), "force, kN": (1.14469, 0.05)},
          {kind: (8, 16) for kind in ("C3D8", "C3D8R")}, lambda n: "%d x %d x %d" % (n, n, n), {"C3D8R": 0.25})
 def sphere(session, kind, n):
-    """A hemisphere without its rim; fine at the pole. (ssnv104 presses 2 deep: strains of 14 %, where Hertz's linear theory and a law
-    for finite strains part.)"""
+    """A hemisphere without its rim. CPRESS is force over the area at rest, which in the middle shrinks by (1 + nu) (1 - 2 nu) p / E;
+    with that, and with strains that Hertz neglects, p0 comes out 6 % low on meshes of any fineness where p0 / E is 3.5 %: hence
+    pressed to a half of that. (ssnv104 presses 2 deep: 14 %.)"""
     widest = 0.9
-    graded = lambda v: math.sinh(5.0 * v) / math.sinh(5.0)  # even near the pole, then growing
+    even, growth = 0.04525, 10.9383285  # half of the elements lie evenly within 1.3 radii of the contact, the others grow to the rim
+
+    def graded(v):
+        return even * (v if v < 0.5 else 0.5 + math.expm1(growth * (v - 0.5)) / growth)
 
     def place(r, s, t):
         a, b = graded(r), graded(s)
@@ -42,7 +46,7 @@ def sphere(session, kind, n):
     mesh.add("*ELSET, ELSET=SKIN, GENERATE\n1, %d\n*SURFACE, NAME=SKIN, TYPE=ELEMENT\nSKIN, S1\n" % (n * n) + PLANE)
     mesh.add("*STEP, NLGEOM, INC=200\n*STATIC\n0.25, 1., 1e-4, 0.5\n*BOUNDARY\n90001, 1, 6")
     mesh.add(mesh.hold(mesh.at(r=0.0), (1,)) + mesh.hold(mesh.at(s=0.0), (2,)))
-    mesh.add("".join("%d, 3, 3, -0.125\n" % m for m in mesh.at(t=1.0)))
+    mesh.add("".join("%d, 3, 3, -0.03125\n" % m for m in mesh.at(t=1.0)))
     mesh.add("*OUTPUT, FIELD, PRECISION=DOUBLE\n*NODE OUTPUT\nU, RF\n*CONTACT OUTPUT\nCPRESS\n*END STEP")
     results = session.run("sphere_%s_%d" % (kind, n), mesh)
     radius, highest = hertz_fit(results)
