@@ -99,6 +99,8 @@ class Analysis : public ResultSource {
   void leave_linear_geometry(const Step& step);
   SmallStrainOutput& small_strain() const;
   void sum_masses();
+  template <class Visit>
+  void for_each_energies(std::size_t group, Visit visit) const;
   EnergyBalance sum_energies() const;
   void apply_attachments(const Step& step);
   void find_acting_elements();

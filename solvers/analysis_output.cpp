@@ -275,35 +275,57 @@ EnergyBalance Analysis::energies() const {
   return sampled_.balance;
 }
 
+/// Calls `visit` with the energies of each element of a group that takes part.
+template <class Visit>
+void Analysis::for_each_energies(std::size_t index, Visit visit) const {
+  const auto& group = *element_groups[index];
+  const bool all_take_part = model.steps.empty() || current.step >= static_cast<std::int32_t>(model.steps.size()) ||
+                             model.steps[current.step].removed_elements.empty();
+  std::array<ElementEnergies, 8 * pack_size> energies;
+  std::vector<double> history(group.history_size());
+  for (std::int32_t first = 0; first < group.size(); first += static_cast<std::int32_t>(energies.size())) {
+    const auto lanes = std::span(energies).first(
+        std::min<std::size_t>(energies.size(), static_cast<std::size_t>(group.padded_size() - first)));
+    if (!current.linear) group.energies(first, current.motion(), current.element_history[index], lanes);
+    const auto last = std::min(first + static_cast<std::int32_t>(lanes.size()), group.size());
+    for (std::int32_t element = first; element < last; ++element) {
+      if (!all_take_part && !takes_part(group, element)) continue;
+      if (!current.linear) {
+        visit(energies[element - first]);
+        continue;
+      }
+      group.gather_history(element, current.element_history[index], history);
+      visit(small_strain().energies(group, element, current, history));
+    }
+  }
+}
+
 EnergyBalance Analysis::sum_energies() const {
   enum { kinetic, strain, hourglass, viscous, plastic, friction, contact_springs, work, count };
   std::array<ExactSum, count> sums;
-  for (std::size_t index = 0; index < element_groups.size(); ++index) {
-    const auto& group = *element_groups[index];
-    std::vector<double> history(group.history_size());
-    for (std::int32_t e = 0; e < group.size(); ++e) {
-      if (!takes_part(group, e)) continue;
-      group.gather_history(e, current.element_history[index], history);
-      const auto energy = current.linear ? small_strain().energies(group, e, current, history)
-                                         : group.energies(e, current.motion(), history);
-      sums[strain].add(energy.strain);
-      sums[hourglass].add(energy.hourglass);
-      sums[viscous].add(energy.viscous);
-      sums[plastic].add(energy.plastic);
-    }
-  }
+  // Most of the addends are zero in most models.
+  const auto add = [&](int kind, double addend) {
+    if (addend != 0.0) sums[kind].add(addend);
+  };
+  for (std::size_t index = 0; index < element_groups.size(); ++index)
+    for_each_energies(index, [&](const ElementEnergies& energies) {
+      add(strain, energies.strain);
+      add(hourglass, energies.hourglass);
+      add(viscous, energies.viscous);
+      add(plastic, energies.plastic);
+    });
   for (std::int32_t node = 0; node < domain.size(); ++node) {
     if (!domain.owned[node]) continue;
     const auto v = velocity_now(*this, node);
-    sums[kinetic].add(0.5 * nodal_mass[node] * conserved_square(*this, v.data(), &acceleration[4 * node]));
+    add(kinetic, 0.5 * nodal_mass[node] * conserved_square(*this, v.data(), &acceleration[4 * node]));
     if (node < domain.turning) {
       const auto w = spin_of_node(*this, node);
-      sums[kinetic].add(0.5 * rotary_inertia[node] * conserved_square(*this, w.data(), &angular_acceleration[4 * node]));
+      add(kinetic, 0.5 * rotary_inertia[node] * conserved_square(*this, w.data(), &angular_acceleration[4 * node]));
     }
-    sums[work].add(current.nodal_work[node].external);
-    sums[viscous].add(current.nodal_work[node].damping);
-    sums[work].add(-work_ahead[node].external);
-    sums[viscous].add(-work_ahead[node].damping);
+    add(work, current.nodal_work[node].external);
+    add(viscous, current.nodal_work[node].damping);
+    add(work, -work_ahead[node].external);
+    add(viscous, -work_ahead[node].damping);
   }
   add_kinetic_energy_of_rotary_inertia(sums[kinetic]);
   for (const auto& given : rotary_tensors) {

@@ -129,6 +129,16 @@ void ElementGroup::lumped_rotary_inertia(std::int32_t, std::span<double> inertia
   std::fill(inertia.begin(), inertia.end(), 0.0);
 }
 
+void ElementGroup::energies(std::int32_t first, const NodalMotion& motion, std::span<const double> group_history,
+                            std::span<ElementEnergies> of_lanes) const {
+  std::vector<double> own(history_size());
+  for (std::size_t lane = 0; lane < of_lanes.size(); ++lane) {
+    const auto element = std::min(first + static_cast<std::int32_t>(lane), size_ - 1);
+    gather_history(element, group_history, own);
+    of_lanes[lane] = energies(element, motion, own);
+  }
+}
+
 Restraint ElementGroup::restraint(std::int32_t) const { return {}; }
 
 int ElementGroup::output_components(std::string_view variable) const {

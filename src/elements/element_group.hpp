@@ -138,6 +138,10 @@ class ElementGroup {
   virtual Restraint restraint(std::int32_t element) const;
 
   virtual ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const = 0;
+  /// The same bits for as many lanes from `first` on, a whole pack's first lane, as `of_lanes` has room for: whole packs, padded
+  /// lanes too; with the history of the whole group.
+  virtual void energies(std::int32_t first, const NodalMotion& motion, std::span<const double> group_history,
+                        std::span<ElementEnergies> of_lanes) const;
 
   /// Number of components of an output variable, 0 where the element has none: those of its points (S 6, LE 6, MISES 1, SENER 1,
   /// STH 1 ...) and the energies of the whole element, ELSE (elastic strain) and ELASE (artificial strain: hourglass).

@@ -58,9 +58,10 @@ struct IsotropicElastic {
     return quadratic_energy_bound(c, lambda > 0.0 ? lambda : 0.0, mu, largest_stress);
   }
 
-  double energy(const Matrix3<double>& deformation_gradient) const {
-    const Matrix3<double> e = green_lagrange_strain(deformation_gradient);
-    const double trace = e(0, 0) + e(1, 1) + e(2, 2);
+  template <class T>
+  T energy(const Matrix3<T>& deformation_gradient) const {
+    const Matrix3<T> e = green_lagrange_strain(deformation_gradient);
+    const T trace = e(0, 0) + e(1, 1) + e(2, 2);
     return 0.5 * lambda * trace * trace + mu * double_contraction(e, e);
   }
 };

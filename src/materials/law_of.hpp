@@ -3,7 +3,7 @@
 // The formulas are an aggregate of parameters. Elastic ones have
 //   solid: Matrix3<T> stress(const Matrix3<T>& F)             first Piola-Kirchhoff stress
 //          TangentBound<T> bound(const Matrix3<T>& F)         see PointBatch
-//          double energy(const Matrix3<double>& F)            per reference volume
+//          T energy(const Matrix3<T>& F), or for T = double   per reference volume
 //   thin (plane, line, fibre; n strains): Point prepare(const std::array<T, n>& E), std::array<T, n> stress(Point),
 //          T bound(Point) (half the largest eigenvalue of the tangent, E12 counted twice in dE : dE), double energy(E),
 //          double transverse_stretch(E)
@@ -100,11 +100,9 @@ class LawOf final : public Law<kind> {
   }
   std::vector<HistoryField> history_fields() const override { return fields_; }
 
-  void stress(PointBatch<kind>& points) const override {
+  [[gnu::flatten]] void stress(PointBatch<kind>& points) const override {
     for (int point = points.first; point < points.first + points.count; point += pack_size) {
-      Kinematics<Pack> strain;
-      for (int k = 0; k < n; ++k) component(strain, k) = load(&points.strain[k][point]);
-      respond_pack(points, point, strain);
+      respond_pack(points, point, strain_of_pack(points, point));
     }
   }
 
@@ -129,6 +127,18 @@ class LawOf final : public Law<kind> {
       return formulas_.energy(as_kinematics(strain), Memory<Formulas, double>::read(formulas_, history.data(), 1));
     } else {
       return {formulas_.energy(as_kinematics(strain)), 0.0, 0.0};
+    }
+  }
+
+  void energy_densities(const PointBatch<kind>& points, const double* history, std::ptrdiff_t stride,
+                        std::span<EnergyDensity> densities) const override {
+    if constexpr (requires(const Kinematics<Pack>& strain) { formulas_.energy(strain); }) {
+      for (int i = 0; i < points.count; i += pack_size) {
+        const Pack energy = formulas_.energy(strain_of_pack(points, points.first + i));
+        for (int lane = 0; lane < pack_size; ++lane) densities[static_cast<std::size_t>(i + lane)] = {energy[lane], 0.0, 0.0};
+      }
+    } else {
+      Law<kind>::energy_densities(points, history, stride, densities);
     }
   }
 
@@ -166,6 +176,12 @@ class LawOf final : public Law<kind> {
     Kinematics<double> result;
     for (int k = 0; k < n; ++k) component(result, k) = strain[k];
     return result;
+  }
+
+  static Kinematics<Pack> strain_of_pack(const PointBatch<kind>& points, int point) {
+    Kinematics<Pack> strain;
+    for (int k = 0; k < n; ++k) component(strain, k) = load(&points.strain[k][point]);
+    return strain;
   }
 
   /// One pack of a batch: stress, bounds, history.

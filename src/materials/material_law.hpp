@@ -79,6 +79,17 @@ class Law {
                        std::span<double, n> stress, std::span<double> stiffness) const = 0;
   /// Energies of the state that `history` closed at `strain`.
   virtual EnergyDensity energy_density(std::span<const double, n> strain, std::span<const double> history) const = 0;
+  /// The same bits for every point of a batch, with history[component * stride + point - first].
+  virtual void energy_densities(const PointBatch<kind>& points, const double* history, std::ptrdiff_t stride,
+                                std::span<EnergyDensity> densities) const {
+    std::array<double, n> strain;
+    std::vector<double> own(static_cast<std::size_t>(history_size()));
+    for (int i = 0; i < points.count; ++i) {
+      for (int k = 0; k < n; ++k) strain[k] = points.strain[k][points.first + i];
+      for (std::size_t k = 0; k < own.size(); ++k) own[k] = history[static_cast<std::ptrdiff_t>(k) * stride + i];
+      densities[static_cast<std::size_t>(i)] = energy_density(strain, own);
+    }
+  }
   /// Ratio of current to reference thickness of a plane point or section of a line (1 where the law has no say).
   virtual double transverse_stretch(std::span<const double, n> strain, std::span<const double> history) const = 0;
 };

@@ -38,9 +38,10 @@ struct MooneyRivlin {
     return rubber_bound(c, inverse_cube_root(c.jacobian), c10, c01, slope, curvature).linear;
   }
 
-  double energy(const Matrix3<double>& f) const {
-    const Invariants<double> c = invariants(f);
-    const double root = inverse_cube_root(c.jacobian), j2 = root * root, volume_change = c.jacobian - 1.0;
+  template <class T>
+  T energy(const Matrix3<T>& f) const {
+    const Invariants<T> c = invariants(f);
+    const T root = inverse_cube_root(c.jacobian), j2 = root * root, volume_change = c.jacobian - 1.0;
     return c10 * (c.first * j2 - 3.0) + c01 * (c.second * j2 * j2 - 3.0) + 0.5 * bulk * volume_change * volume_change;
   }
 };

@@ -48,10 +48,11 @@ struct NeoHooke {
             isochoric + 0.5 * (absolute(k) * inverse_stretch) + (2.0 / 3.0) * (isochoric * eta)};
   }
 
-  double energy(const Matrix3<double>& f) const {
-    const Invariants<double> c = invariants(f);
-    const double root = inverse_cube_root(c.jacobian);
-    const double volume_change = c.jacobian - 1.0;
+  template <class T>
+  T energy(const Matrix3<T>& f) const {
+    const Invariants<T> c = invariants(f);
+    const T root = inverse_cube_root(c.jacobian);
+    const T volume_change = c.jacobian - 1.0;
     return c10 * (c.first * root * root - 3.0) + 0.5 * bulk * volume_change * volume_change;
   }
 };

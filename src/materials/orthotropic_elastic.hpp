@@ -43,8 +43,9 @@ struct OrthotropicElastic {
     return quadratic_energy_bound(invariants(deformation_gradient), lambda, mu, largest);
   }
 
-  double energy(const Matrix3<double>& deformation_gradient) const {
-    const Matrix3<double> strain = green_lagrange_strain(deformation_gradient);
+  template <class T>
+  T energy(const Matrix3<T>& deformation_gradient) const {
+    const Matrix3<T> strain = green_lagrange_strain(deformation_gradient);
     return 0.5 * double_contraction(second_piola(strain), strain);
   }
 };

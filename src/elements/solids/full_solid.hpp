@@ -38,6 +38,11 @@ class FullSolid final : public ElementGroup {
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion,
                            std::span<const double> history) const override;
+  void energies(std::int32_t first, const NodalMotion& motion, std::span<const double> group_history,
+                std::span<ElementEnergies> of_lanes) const override {
+    for (std::size_t lane = 0; lane < of_lanes.size(); lane += pack_size)
+      pack_energies(first + static_cast<std::int32_t>(lane), motion, group_history, of_lanes.subspan(lane).template first<pack_size>());
+  }
   int point_components(std::string_view variable) const override { return solid_output_components(material_, variable); }
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override {
@@ -67,6 +72,8 @@ class FullSolid final : public ElementGroup {
   /// Stresses and bounds of all points of a pack of elements.
   void respond(std::int32_t element, double increment, PointBatch<PointKind::solid>& points,
                std::span<double> history) const;
+  void pack_energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history,
+                     std::span<ElementEnergies, pack_size> of_lanes) const;
   Coefficients<Pack> gather_coefficients(std::int32_t element, const double* nodal) const;
   Pack add_pack(std::int32_t element, const ExplicitCycle& cycle, PointBatch<PointKind::solid>& points,
                 std::span<double> history) const;

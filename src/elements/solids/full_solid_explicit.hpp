@@ -151,6 +151,30 @@ template <class Shape>
 }
 
 template <class Shape>
+[[gnu::flatten]] void FullSolid<Shape>::pack_energies(std::int32_t element, const NodalMotion& motion,
+                                                      std::span<const double> history,
+                                                      std::span<ElementEnergies, pack_size> of_lanes) const {
+  const PackReference reference = pack_reference(element);
+  prefetch_record(reference.data + pack_size * Record::size, Record::size);
+  const auto k = full_solid_kinematics<Shape>(gather_coefficients(element, motion.position), reference);
+  for (int lane = 0; lane < pack_size; ++lane) of_lanes[lane] = {.viscous = history[padded_size_ + element + lane]};
+  PointBatch<PointKind::solid> points;
+  points.count = pack_size;
+  std::array<EnergyDensity, pack_size> density;
+  for (int q = 0; q < Shape::points; ++q) {
+    for (int i = 0; i < 9; ++i) store(k.modified[q].component[i], points.strain[i]);
+    material_.law->energy_densities(points, history.data() + law_row(q) * static_cast<std::ptrdiff_t>(padded_size_) + element,
+                                    padded_size_, density);
+    const Pack volume = reference[Record::point(q) + 9];
+    for (int lane = 0; lane < pack_size; ++lane) {
+      of_lanes[lane].strain += volume[lane] * density[lane].recoverable;
+      of_lanes[lane].plastic += volume[lane] * density[lane].plastic;
+      of_lanes[lane].viscous += volume[lane] * density[lane].viscous;
+    }
+  }
+}
+
+template <class Shape>
 Pack FullSolid<Shape>::add_damping(std::int32_t element, const ExplicitCycle& cycle,
                                    const FullSolidKinematics<Pack, Shape>& k, Tensors<Pack>& stress) const {
   const PackReference reference = pack_reference(element);

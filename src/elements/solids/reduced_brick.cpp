@@ -84,10 +84,7 @@ template <bool enhanced, bool damped>
                                              PointBatch<PointKind::solid>& points, std::span<double> history) const {
   const PackReference reference{records_.data() + static_cast<std::size_t>(element) * brick_record::size};
   prefetch_record(reference.data + pack_size * brick_record::size, brick_record::size);
-  const std::int32_t* nodes = connectivity_.data() + static_cast<std::size_t>(element) * nodes_per_brick;
-  std::array<Vector3<Pack>, nodes_per_brick> x;
-  for (int node = 0; node < nodes_per_brick; ++node) x[node] = gather(cycle.motion.position, nodes + node, nodes_per_brick);
-  const HexahedronCoefficients<Pack> c = coefficients(x);
+  const HexahedronCoefficients<Pack> c = coefficients(gather_nodes(element, cycle.motion.position));
   const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
   for (int k = 0; k < 9; ++k) store(f.component[k], points.strain[k]);
   material_.law->stress(points);
@@ -111,11 +108,9 @@ template <bool enhanced, bool damped>
   const std::array<Vector3<Pack>, 4> q = hourglass_vectors(c, f, reference);
   HexahedronCoefficients<Pack> conjugates;
   if constexpr (damped) {
-    std::array<Vector3<Pack>, nodes_per_brick> v;
-    for (int node = 0; node < nodes_per_brick; ++node) v[node] = gather(cycle.motion.velocity, nodes + node, nodes_per_brick);
     const BrickMotion<Pack> motion{c, f, q};
-    conjugates = damped_conjugates<enhanced>(motion, coefficients(v), stress, material_, reference, cycle.increment,
-                                             dissipation);
+    const auto c_rate = coefficients(gather_nodes(element, cycle.motion.velocity));
+    conjugates = damped_conjugates<enhanced>(motion, c_rate, stress, material_, reference, cycle.increment, dissipation);
   } else if constexpr (enhanced) {
     const auto hourglass_stress = hourglass_stresses(hourglass_strains(c, q), reference);
     conjugates = conjugates_with_stresses(c, q, hourglass_stress, stress, reference);
@@ -133,6 +128,37 @@ template <bool enhanced, bool damped>
   const TangentBound<Pack> bound{load(points.volumetric_modulus), load(points.shear_modulus)};
   const BrickStability stability{material_.density, damped ? material_.damping_beta : 0.0};
   return stability.increment(invariant, bound, q, viscosity.slope(length, rate), reference);
+}
+
+std::array<Vector3<Pack>, nodes_per_brick> ReducedBrick::gather_nodes(std::int32_t element, const double* nodal) const {
+  const std::int32_t* nodes = connectivity_.data() + static_cast<std::size_t>(element) * nodes_per_brick;
+  std::array<Vector3<Pack>, nodes_per_brick> values;
+  for (int node = 0; node < nodes_per_brick; ++node) values[node] = gather(nodal, nodes + node, nodes_per_brick);
+  return values;
+}
+
+void ReducedBrick::energies(std::int32_t first, const NodalMotion& motion, std::span<const double> group_history,
+                            std::span<ElementEnergies> of_lanes) const {
+  for (std::size_t lane = 0; lane < of_lanes.size(); lane += pack_size)
+    pack_energies(first + static_cast<std::int32_t>(lane), motion, group_history, of_lanes.subspan(lane).first<pack_size>());
+}
+
+[[gnu::flatten]] void ReducedBrick::pack_energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history,
+                                                  std::span<ElementEnergies, pack_size> of_lanes) const {
+  const PackReference reference{records_.data() + static_cast<std::size_t>(element) * brick_record::size};
+  prefetch_record(reference.data + pack_size * brick_record::size, brick_record::size);
+  const HexahedronCoefficients<Pack> c = coefficients(gather_nodes(element, motion.position));
+  const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
+  const Pack hourglass = hourglass_energy(c, hourglass_vectors(c, f, reference), reference, enhanced_);
+  const Pack volume = reference[brick_record::volume];
+  PointBatch<PointKind::solid> points;
+  points.count = pack_size;
+  for (int k = 0; k < 9; ++k) store(f.component[k], points.strain[k]);
+  std::array<EnergyDensity, pack_size> density;
+  material_.law->energy_densities(points, history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + element,
+                                  padded_size_, density);
+  for (int lane = 0; lane < pack_size; ++lane)
+    of_lanes[lane] = element_energies(volume[lane], density[lane], hourglass[lane], history[padded_size_ + element + lane]);
 }
 
 std::size_t ReducedBrick::bytes_per_element() const {

@@ -30,6 +30,8 @@ class ReducedBrick final : public ElementGroup {
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion,
                            std::span<const double> history) const override;
+  void energies(std::int32_t first, const NodalMotion& motion, std::span<const double> group_history,
+                std::span<ElementEnergies> of_lanes) const override;
   int point_components(std::string_view variable) const override;
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override;
@@ -45,6 +47,16 @@ class ReducedBrick final : public ElementGroup {
   template <bool enhanced, bool damped>
   Pack add_pack(std::int32_t element, const ExplicitCycle& cycle, PointBatch<PointKind::solid>& points,
                 std::span<double> history) const;
+
+  std::array<Vector3<Pack>, nodes_per_brick> gather_nodes(std::int32_t element, const double* nodal) const;
+  void pack_energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history,
+                     std::span<ElementEnergies, pack_size> of_lanes) const;
+  static ElementEnergies element_energies(double volume, const EnergyDensity& density, double hourglass, double dissipation) {
+    return {.strain = volume * density.recoverable,
+            .hourglass = hourglass,
+            .viscous = dissipation + volume * density.viscous,
+            .plastic = volume * density.plastic};
+  }
 
   /// Force (and stiffness) of one element over any scalar: T = double or Dual<24>.
   template <class T>

@@ -79,21 +79,9 @@ ElementEnergies ReducedBrick::energies(std::int32_t element, const NodalMotion& 
   const LaneReference record = reference(element);
   const auto c = coefficients_of<double>(element, motion.position);
   const Matrix3<double> f = mean_deformation_gradient(c, record);
-  const auto q = hourglass_vectors(c, f, record);
-  ElementEnergies energies;
-  const double volume = record[brick_record::volume];
   const EnergyDensity density = material_.law->energy_density(f.component, history.subspan(own_history));
-  energies.strain = volume * density.recoverable;
-  energies.plastic = volume * density.plastic;
-  energies.viscous = history[1] + volume * density.viscous;
-  if (enhanced_) {
-    const auto strain = hourglass_strains(c, q);
-    const auto stress = hourglass_stresses(strain, record);
-    for (int k = 0; k < 12; ++k) energies.hourglass += 0.5 * strain[k] * stress[k];
-  } else {
-    for (const auto& vector : q) energies.hourglass += 0.5 * record[brick_record::stiffness] * dot(vector, vector);
-  }
-  return energies;
+  const double hourglass = hourglass_energy(c, hourglass_vectors(c, f, record), record, enhanced_);
+  return element_energies(record[brick_record::volume], density, hourglass, history[1]);
 }
 
 int ReducedBrick::point_components(std::string_view variable) const {

@@ -190,6 +190,26 @@ TEST_P(SolidElement, ForceIsTheGradientOfTheEnergy) {
   }
 }
 
+/// Energies of packs are those of single elements bit for bit; the last pack has padded lanes.
+TEST_P(SolidElement, PackEnergiesEqualSingleOnes) {
+  Block block;
+  block.cells = {3, 3, 1};
+  block.skew = 0.1;
+  block.skew_boundary = true;
+  SolidCase c = make_block(options(), block);
+  c.move(affine(large_strain));
+  shake(c, 0.04);
+  c.explicit_cycle(1e-3, 0.06, 1.2);
+  std::vector<ElementEnergies> energies(static_cast<std::size_t>(c.group->padded_size()));
+  c.group->energies(0, {c.position.data()}, c.history, energies);
+  for (int e = 0; e < c.group->size(); ++e) {
+    const ElementEnergies one = c.group->energies(e, {c.position.data()}, c.element_history(e));
+    for (const auto member : {&ElementEnergies::strain, &ElementEnergies::hourglass, &ElementEnergies::viscous, &ElementEnergies::plastic})
+      EXPECT_EQ(energies[e].*member, one.*member);
+    EXPECT_GT(one.strain, 0.0);
+  }
+}
+
 /// One kernel: the explicit loop's packs give the very forces of the scalar kernel. Eight different elements fill the
 /// lanes.
 TEST_P(SolidElement, PackForcesEqualScalarForces) {
