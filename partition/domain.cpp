@@ -188,7 +188,7 @@ Domain make_domain(const Model& model, const Communicator& communicator, const P
   number_nodes(partition, communicator.rank(), domain);
   auto neighbours = shared_nodes(partition, communicator, domain);
   make_groups(partition, communicator.rank(), neighbours, domain);
-  domain.halo = std::make_unique<Halo>(communicator, std::move(neighbours), domain.turning, Halo::Tag::internal);
+  domain.halo = std::make_unique<Halo>(communicator, std::move(neighbours), domain.turning, Halo::Tag::domain);
   return domain;
 }
 

@@ -22,8 +22,9 @@ const double* add(const std::vector<std::int32_t>& nodes, const double* in, doub
 
 }  // namespace
 
-Halo::Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours, std::int32_t turning, Tag tag)
-    : neighbours_(std::move(neighbours)) {
+Halo::Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours, std::int32_t turning, Tag tag,
+           std::size_t fields)
+    : fields_(fields), neighbours_(std::move(neighbours)) {
   const std::size_t count = neighbours_.size();
   turning_.resize(count);
   outgoing_.resize(count);
@@ -32,7 +33,7 @@ Halo::Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours
   for (std::size_t i = 0; i < count; ++i) {
     for (const auto node : neighbours_[i].nodes)
       if (node < turning) turning_[i].push_back(node);
-    const std::size_t length = components * (neighbours_[i].nodes.size() + turning_[i].size());
+    const std::size_t length = components * fields_ * (neighbours_[i].nodes.size() + turning_[i].size());
     outgoing_[i].resize(length);
     incoming_[i].resize(length);
     MPI_Recv_init(incoming_[i].data(), static_cast<int>(length), MPI_DOUBLE, neighbours_[i].rank, static_cast<int>(tag),
@@ -46,19 +47,25 @@ Halo::~Halo() {
   for (auto& request : requests_) MPI_Request_free(&request);
 }
 
-void Halo::begin_sum(const double* forces, const double* moments) {
+void Halo::begin_sum(std::span<const NodalForces> fields) {
   for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-    double* const behind = pack(neighbours_[i].nodes, forces, outgoing_[i].data());
-    if (moments != nullptr) pack(turning_[i], moments, behind);
+    double* out = outgoing_[i].data();
+    for (const auto& [force, moment] : fields.first(fields_)) {
+      out = pack(neighbours_[i].nodes, force, out);
+      if (moment != nullptr) out = pack(turning_[i], moment, out);
+    }
   }
   if (!requests_.empty()) MPI_Startall(static_cast<int>(requests_.size()), requests_.data());
 }
 
-void Halo::finish_sum(double* forces, double* moments) {
+void Halo::finish_sum(std::span<const NodalForces> fields) {
   if (!requests_.empty()) MPI_Waitall(static_cast<int>(requests_.size()), requests_.data(), MPI_STATUSES_IGNORE);
   for (std::size_t i = 0; i < neighbours_.size(); ++i) {
-    const double* const behind = add(neighbours_[i].nodes, incoming_[i].data(), forces);
-    if (moments != nullptr) add(turning_[i], behind, moments);
+    const double* in = incoming_[i].data();
+    for (const auto& [force, moment] : fields.first(fields_)) {
+      in = add(neighbours_[i].nodes, in, force);
+      if (moment != nullptr) in = add(turning_[i], in, moment);
+    }
   }
 }
 

@@ -131,6 +131,7 @@ void NodalConstraints::find_velocities(const Analysis& analysis, const Step& ste
     const auto now = motion(analysis, constraint);
     constraint.old_velocity = now.velocity;
     constraint.new_velocity = prescribed_velocity(analysis.model, step, *constraint.condition, instant, now);
+    if (freedom_ == NodalFreedom::translation) std::copy_n(&analysis.current.position[4 * constraint.node], 3, constraint.position.data());
   }
 }
 
@@ -151,6 +152,13 @@ void NodalConstraints::enforce(Analysis& analysis, const Instant& instant) const
         0.5 * constraint.reaction *
         (instant.previous * constraint.old_velocity + instant.next * constraint.new_velocity);
   }
+}
+
+void NodalConstraints::move_again(Analysis& analysis, const Instant& instant) const {
+  for (const auto& constraint : constraints_)
+    for (int c = 0; c < 3; ++c)
+      analysis.current.position[4 * constraint.node + c] =
+          constraint.position[c] + instant.next * analysis.current.velocity[4 * constraint.node + c];
 }
 
 void NodalConstraints::add_to_output(Analysis& analysis, const Instant& instant) const {

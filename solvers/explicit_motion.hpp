@@ -44,6 +44,7 @@ class NodalConstraints {
     Point direction{};
     const BoundaryCondition* condition = nullptr;
     double old_velocity = 0.0, new_velocity = 0.0, reaction = 0.0;
+    Point position{};  // of the node (translations) when find_velocities() was called
   };
   /// Those of a local node.
   std::span<const Constraint> of_node(std::int32_t node) const;
@@ -54,6 +55,10 @@ class NodalConstraints {
   void find_reactions(const Analysis& analysis, const Instant& instant, const double* force);
   /// After velocities changed: sets the prescribed components and adds the work of the reactions.
   void enforce(Analysis& analysis, const Instant& instant) const;
+
+  /// Of translations, after enforce(), where nodes have moved over the next increment with other velocities: puts them where these
+  /// take them.
+  void move_again(Analysis& analysis, const Instant& instant) const;
 
   /// Adds reactions, what they do to accelerations, and their work ahead, to the analysis' arrays for output.
   void add_to_output(Analysis& analysis, const Instant& instant) const;

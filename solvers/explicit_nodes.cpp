@@ -1,5 +1,6 @@
 #include "explicit_nodes.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <experimental/simd>
 
@@ -30,9 +31,16 @@ void clear_vectors(std::span<double> nodal) {
   for (std::size_t i = 0; i < nodal.size(); i += 4) nodal[i] = nodal[i + 1] = nodal[i + 2] = 0.0;
 }
 
-void add_vectors(std::span<double> sum, std::span<const double> addend) {
+void clear_vectors(std::span<double> nodal, std::span<const std::int32_t> nodes) {
+  for (const auto node : nodes) std::fill_n(&nodal[4 * static_cast<std::size_t>(node)], 3, 0.0);
+}
+
+void add_vectors(std::span<double> sum, std::span<const double> addend, std::span<const std::int32_t> nodes) {
   const Four part = vector_part();
-  for (std::size_t i = 0; i < sum.size(); i += 4) put(at(&sum[i]) + part * at(&addend[i]), &sum[i]);
+  for (const auto node : nodes) {
+    const std::size_t i = 4 * static_cast<std::size_t>(node);
+    put(at(&sum[i]) + part * at(&addend[i]), &sum[i]);
+  }
 }
 
 void add_mass_damping(std::span<double> force, std::span<double> damping_force, std::span<const double> coefficient,
@@ -58,6 +66,19 @@ bool kick(std::span<double> velocity, std::span<const double> force, std::span<c
 
 void drift(std::span<double> position, std::span<const double> velocity, double increment) {
   for (std::size_t i = 0; i < position.size(); ++i) position[i] += increment * velocity[i];
+}
+
+bool kick_and_drift(const NodalPass& nodes, double average, double increment) {
+  constexpr std::size_t block = 256;  // nodes whose position, velocity and force stay in L1
+  bool sound = true;
+  for (std::size_t first = 0; first < nodes.inverse_mass.size(); first += block) {
+    const std::size_t count = std::min(block, nodes.inverse_mass.size() - first);
+    const auto velocity = nodes.velocity.subspan(4 * first, 4 * count), force = nodes.force.subspan(4 * first, 4 * count);
+    if (!kick(velocity, force, nodes.inverse_mass.subspan(first, count), average)) sound = false;
+    drift(nodes.position.subspan(4 * first, 4 * count), velocity, increment);
+    if (sound) clear_vectors(force);
+  }
+  return sound;
 }
 
 void drift_rotations(std::span<double> orientation, std::span<double> rotation, std::span<const double> angular_velocity,

@@ -6,11 +6,12 @@
 
 namespace balocco {
 
-/// Zeroes the vectors and leaves the fourth slots alone.
+/// Zeroes the vectors, of all nodes or of some, and leaves the fourth slots alone.
 void clear_vectors(std::span<double> nodal);
+void clear_vectors(std::span<double> nodal, std::span<const std::int32_t> nodes);
 
-/// sum += addend, fourth slots excepted.
-void add_vectors(std::span<double> sum, std::span<const double> addend);
+/// sum += addend at some nodes, fourth slots excepted.
+void add_vectors(std::span<double> sum, std::span<const double> addend, std::span<const std::int32_t> nodes);
 
 /// damping force = coefficient * velocity, and force -= damping force.
 void add_mass_damping(std::span<double> force, std::span<double> damping_force, std::span<const double> coefficient,
@@ -23,6 +24,14 @@ bool kick(std::span<double> velocity, std::span<const double> force, std::span<c
 
 /// position += increment * velocity.
 void drift(std::span<double> position, std::span<const double> velocity, double increment);
+
+struct NodalPass {
+  std::span<double> position, velocity, force;  // 4 a node
+  std::span<const double> inverse_mass;
+};
+/// kick over `average` and drift over `increment`, after which forces are cleared: a few nodes at a time, so that they come through
+/// the caches once. @return false as kick does; from the first such nodes on, forces are left as they are.
+bool kick_and_drift(const NodalPass& nodes, double average, double increment);
 
 /// Turns nodes over an increment: orientations (unit quaternions) by the exponential of increment * spin, and the accumulated
 /// rotation vectors. 4 doubles a node each.

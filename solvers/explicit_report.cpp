@@ -54,7 +54,7 @@ bool ExplicitStep::lands() const {
 
 bool ExplicitStep::observe() {
   const bool landing = lands();
-  if (!attention_ && !finished() && !landing) return true;
+  if (!is_observed()) return true;
   report_failure();
   fill_output();
   if (analysis_.current.increment % regular_increments == 0 || landing || (finished() && !checked_before_landing_))

@@ -66,7 +66,6 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       gyroscopic_(make_together<GyroscopicNodes>(analysis, std::ref(step))),
       inverse_mass_(inverse_masses(analysis)),
       contact_(analysis, step, constraints_, bodies_, inverse_mass_),
-      external_halo_(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::external),
       moments_(analysis.model.rigid_bodies.size()) {
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
   force_.assign(4 * (nodes + 1), 0.0);
@@ -92,6 +91,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     refuse_massless_restraints(analysis, step);
   });
   find_loaded_nodes();
+  halo_.emplace(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::step, has_loads_ ? 2 : 1);
 }
 
 void ExplicitStep::refuse_loads_without_inertia() const {
@@ -135,6 +135,7 @@ void ExplicitStep::find_loaded_nodes() {
       for (const auto node : neighbour.nodes) loaded[node] = true;
   for (std::size_t node = 0; node < loaded.size(); ++node)
     if (loaded[node]) loaded_nodes_.push_back(static_cast<std::int32_t>(node));
+  loaded_turning_ = static_cast<std::size_t>(std::ranges::lower_bound(loaded_nodes_, analysis_.domain.turning) - loaded_nodes_.begin());
 }
 
 Instant ExplicitStep::instant() const {
@@ -175,7 +176,7 @@ void ExplicitStep::advance_positions() {
   auto& state = analysis_.current;
   const double increment = state.time_increment;
   timers.measure(Phase::update, [&] {
-    drift(state.position, state.velocity, increment);
+    if (!nodes_are_ahead_) drift(state.position, state.velocity, increment);
     drift_rotations(state.orientation, state.rotation, state.angular_velocity, increment);
   });
   timers.measure(Phase::bodies, [&] { bodies_.advance(analysis_, increment); });
@@ -189,16 +190,17 @@ void ExplicitStep::advance_positions() {
 void ExplicitStep::begin_external_loads() {
   const auto& state = analysis_.current;
   timers.measure(Phase::loads, [&] {
-    clear_vectors(force_);
+    clear_vectors(nodes_are_ahead_ ? std::span(force_).last(4) : std::span(force_));
+    nodes_are_ahead_ = false;
     clear_vectors(turning(moment_));
     stability_ = {};
     if (!has_loads_) return;
     std::fill(moments_.begin(), moments_.end(), Point{});
-    clear_vectors(external_force_);
-    clear_vectors(turning(external_moment_));
+    clear_vectors(external_force_, loaded_nodes_);
+    clear_vectors(std::span(external_force_).last(4));  // of the scratch node
+    clear_vectors(external_moment_, loaded_turning_nodes());
     add_external_forces(analysis_, step_, state.step_time, state.total_time, state.position.data(), external_forces(),
                         moments_);
-    external_halo_.begin_sum(external_force_.data(), external_moment_.data());
   });
 }
 
@@ -222,7 +224,7 @@ void ExplicitStep::add_interface_elements() {
 }
 
 void ExplicitStep::begin_halo() {
-  timers.measure(Phase::halo, [&] { analysis_.domain.halo->begin_sum(force_.data(), moment_.data()); });
+  timers.measure(Phase::halo, [&] { halo_->begin_sum(summed_forces()); });
 }
 
 void ExplicitStep::add_interior_elements() {
@@ -241,14 +243,11 @@ void ExplicitStep::add_stiff_contact() {
 }
 
 void ExplicitStep::finish_halo() {
-  timers.measure(Phase::halo, [&] {
-    if (has_loads_) external_halo_.finish_sum(external_force_.data(), external_moment_.data());
-    analysis_.domain.halo->finish_sum(force_.data(), moment_.data());
-  });
+  timers.measure(Phase::halo, [&] { halo_->finish_sum(summed_forces()); });
   timers.measure(Phase::loads, [&] {
     if (!has_loads_) return;
-    add_vectors(force_, external_force_);
-    add_vectors(turning(moment_), external_moment_);
+    add_vectors(force_, external_force_, loaded_nodes_);
+    add_vectors(moment_, external_moment_, loaded_turning_nodes());
   });
 }
 
@@ -321,15 +320,23 @@ void ExplicitStep::update_velocities() {
     constraints_.find_reactions(analysis_, now, force_.data());
     rotation_constraints_.find_velocities(analysis_, step_, now);
     rotation_constraints_.find_reactions(analysis_, now, moment_.data());
-    const bool sound = kick(state.velocity, force_, inverse_mass_, now.average());
+    const bool sound = move_nodes(now);
     if (!kick(state.angular_velocity, moment_, inverse_rotary_inertia_, now.average()) || !sound) remember_blow_up();
     constraints_.enforce(analysis_, now);
+    if (nodes_are_ahead_) constraints_.move_again(analysis_, now);
     rotation_constraints_.enforce(analysis_, now);
     gyroscopic_.accelerate(analysis_, step_, now, moment_.data());
   });
   timers.measure(Phase::bodies, [&] { bodies_.accelerate(analysis_, now, moments_); });
   timers.measure(Phase::update, [&] { add_half_work(now.next, state.nodal_work); });
   state.time_increment = next_increment_;
+}
+
+bool ExplicitStep::move_nodes(const Instant& now) {
+  auto& state = analysis_.current;
+  nodes_are_ahead_ = !is_observed();
+  if (!nodes_are_ahead_) return kick(state.velocity, force_, inverse_mass_, now.average());
+  return kick_and_drift({state.position, state.velocity, force_, inverse_mass_}, now.average(), now.next);
 }
 
 void ExplicitStep::remember_blow_up() {

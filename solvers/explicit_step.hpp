@@ -1,6 +1,7 @@
 // The phases of an explicit cycle, as the loop (explicit_loop.cpp) names them, and what they share during a step.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -64,6 +65,9 @@ class ExplicitStep {
   void refuse_loads_without_inertia() const;
   void find_loaded_nodes();
   NodalForces forces() { return {force_.data(), moment_.data()}; }
+  std::span<const std::int32_t> loaded_turning_nodes() const { return std::span(loaded_nodes_).first(loaded_turning_); }
+  /// What the halo sums: forces, and external ones if there are any.
+  std::array<NodalForces, 2> summed_forces() { return {forces(), external_forces()}; }
   NodalForces external_forces() { return {external_force_.data(), external_moment_.data()}; }
   std::span<double> turning(std::vector<double>& nodal) const {
     return std::span(nodal).first(4 * static_cast<std::size_t>(analysis_.domain.turning));
@@ -75,6 +79,10 @@ class ExplicitStep {
   /// @throws AnalysisError where energy came from nowhere or went nowhere. Collective.
   void check_energy_balance();
   bool lands() const;
+  /// Whether anybody looks at the state when the cycle has ended; alike on all ranks.
+  bool is_observed() const { return attention_ || finished() || lands(); }
+  /// The new velocities of nodes, without constraints; where nobody looks, their new positions too. @return false: the run has blown up.
+  bool move_nodes(const Instant& now);
   [[noreturn]] void report_collapse();
   Progress progress() const;
 
@@ -92,19 +100,21 @@ class ExplicitStep {
   GyroscopicNodes gyroscopic_;
   std::vector<double> inverse_mass_;  // zero for nodes that bodies move
   ExplicitContact contact_;
-  Halo external_halo_;
   bool has_loads_ = false;  // of any rank
+  std::optional<Halo> halo_;  // of forces, and of external forces where there are loads
 
   std::vector<double> force_, external_force_, damping_force_;  // 4 a node; damping empty where there is none
   // Of nodes that turn; moments as long as forces, so that both have the scratch node in one place, or empty:
   std::vector<double> moment_, external_moment_, damping_moment_;
   std::vector<double> inverse_rotary_inertia_;  // zero for nodes that bodies turn, and for gyroscopic ones
-  std::vector<std::int32_t> loaded_nodes_;                      // on which external forces may act
+  std::vector<std::int32_t> loaded_nodes_;  // on which external forces may act, sorted
+  std::size_t loaded_turning_ = 0;          // the first of them turn
   std::vector<Point> moments_;                                  // external, per rigid body
   LocalStability stability_;
   double next_increment_ = 0.0, last_increment_ = 0.0;
   bool checked_before_landing_ = false;  // the energy balance
   bool attention_ = true;               // the observer looks at this increment, and always at the start
+  bool nodes_are_ahead_ = false;        // they have moved over the increment to come, and their forces are cleared
   std::int64_t cycles_ = 0;             // computed by this run, which may have been restarted in mid-step
   std::optional<std::string> failure_;  // found by this rank, told to all in the next agreement
 };

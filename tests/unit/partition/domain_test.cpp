@@ -152,6 +152,24 @@ TEST_P(DomainOf, SumOfOnesIsTheMultiplicity) {
   }
 }
 
+TEST_P(DomainOf, SeveralFieldsTravelTogether) {
+  const auto size = 4 * static_cast<std::size_t>(domain.size());
+  std::vector<double> multiplicity(size, 1.0), twice(size, 2.0), moments(size, 3.0), rest(size, 4.0);
+  domain.halo->begin_sum(multiplicity.data());
+  domain.halo->finish_sum(multiplicity.data());
+  Halo halo(communicator, domain.halo->neighbours(), domain.size(), Halo::Tag::step, 2);
+  std::vector<double> once(size, 1.0);
+  const std::array<NodalForces, 2> fields{{{once.data(), moments.data()}, {twice.data(), rest.data()}}};
+  halo.begin_sum(fields);
+  halo.finish_sum(fields);
+  EXPECT_EQ(once, multiplicity);
+  for (std::int32_t node = 0; node < domain.size(); ++node) {
+    EXPECT_EQ(twice[4 * node], 2.0 * multiplicity[4 * node]);
+    EXPECT_EQ(moments[4 * node + 2], 3.0 * multiplicity[4 * node]);
+    EXPECT_EQ(rest[4 * node + 2], 4.0 * multiplicity[4 * node]);
+  }
+}
+
 TEST_P(DomainOf, RoundedSumsAreThoseOfOneRankBitForBit) {
   const double constant = rounding_constant(64.0);
   std::vector<double> values(4 * static_cast<std::size_t>(domain.size()), 0.0);
