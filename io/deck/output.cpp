@@ -182,11 +182,12 @@ void finish_output(Builder& builder) {
     Step& step = model.steps[row];
     if (step.field_outputs.empty() && !builder.without_field.contains(row))
       step.field_outputs.push_back(preselected_field());
+    default_times(step);
+    // A history that nobody asked for has no times: it is written at leisure (results_schedule.hpp).
     if (step.history_outputs.empty() && !builder.without_history.contains(row)) {
       step.history_outputs.emplace_back();
       step.history_outputs.back().energies = energies;
     }
-    default_times(step);
     for (auto& output : step.field_outputs) {
       for (auto* variables : {&output.element_variables, &output.integration_point_variables}) {
         std::erase_if(*variables, [&](const std::string& name) { return !exists(name); });

@@ -207,6 +207,7 @@ void Writer::field_output(const FieldOutput& output, std::size_t step, std::size
 }
 
 void Writer::history_output(const HistoryOutput& output) {
+  if (!output.frequency && !output.time_interval) return;  // what a deck that asks for no history gets
   if (output.frequency) line("*OUTPUT, HISTORY, FREQUENCY={}", *output.frequency);
   if (output.time_interval) line("*OUTPUT, HISTORY, TIME INTERVAL={}", *output.time_interval);
   for (const auto& request : output.nodes) {
