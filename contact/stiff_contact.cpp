@@ -39,21 +39,22 @@ TangentialYielding tangential_yielding(const SlaveFreedom& freedom, const Vector
 
 /// A stiff point on its way over the cycle, seen from the master body: global directions, without the force of its own contact.
 struct RigidContact::StiffMotion {
-  Vector3<double> arm, before, after;  // place; motion over the increment before, and over the next one
-  double yielding = 0.0;               // motion over the next increment per force
+  Vector3<double> arm, old_velocity, new_velocity;
+  double previous = 0.0, next = 0.0;  // increments
+  double average = 0.0;               // time over which the force of the instant changes the velocity
+  double yielding = 0.0;              // velocity per force
 
   StiffMotion(const MasterFrame& frame, const StiffCycle& cycle, const RigidBodyState& master, const SlaveFreedom& freedom,
               std::ptrdiff_t at, const double* force)
-      : arm(frame.arm(cycle.position + at)) {
+      : arm(frame.arm(cycle.position + at)), previous(cycle.previous), next(cycle.next), average(0.5 * (previous + next)) {
     const double* const v = cycle.velocity + at;
     const auto below = Vector3<double>{master.velocity} + cross(Vector3<double>{master.angular_velocity}, arm);
-    const double average = 0.5 * (cycle.previous + cycle.next);
     const Vector3<double> now{v[0], v[1], v[2]};
-    auto then = free_part(freedom, now + (average * freedom.inverse_mass) * Vector3<double>{force[0], force[1], force[2]});
+    yielding = average * freedom.inverse_mass;
+    auto then = free_part(freedom, now + yielding * Vector3<double>{force[0], force[1], force[2]});
     for (int i = 0; i < freedom.held; ++i) then = then + freedom.velocity[i] * Vector3<double>{freedom.direction[i]};
-    before = cycle.previous * (now - below);
-    after = cycle.next * (then - below);
-    yielding = cycle.next * average * freedom.inverse_mass;
+    old_velocity = now - below;
+    new_velocity = then - below;
   }
 };
 
@@ -103,19 +104,22 @@ void RigidContact::add_stiff_force(std::int32_t point, const StiffCycle& cycle, 
   StiffMotion motion(frame, cycle, master, freedom, at, sum);
   const auto place = frame.inverse * motion.arm;
   if (state.closed == 0.0 && surface_.surely_outside(place) &&
-      surface_.surely_outside(frame.inverse * (motion.arm + 0.5 * motion.after))) {
+      surface_.surely_outside(frame.inverse * (motion.arm + (0.5 * motion.average) * motion.new_velocity))) {
     open(state, place);
     return;
   }
   const auto nearest = surface_.nearest(place);
   const auto normal = frame.rotation * nearest.normal;
   const auto free_normal = free_part(freedom, normal);
-  const double before = nearest.distance - 0.5 * dot(motion.before, normal);
-  const double after = nearest.distance + 0.5 * dot(motion.after, normal);
+  // Not half of either increment but half of the time over which the force acts: so it gives the energy that the spring loses even
+  // where the increment changes.
+  const double half = 0.5 * motion.average;
+  const double before = nearest.distance - half * dot(motion.old_velocity, normal);
+  const double after = nearest.distance + half * dot(motion.new_velocity, normal);
   const double old_pressure = state.stiff_force;
   state.stiff_force = stiff_normal_force(state.multiplier, state.stiff_spring, before, after,
-                                         0.5 * motion.yielding * dot(free_normal, normal));
-  motion.after = motion.after + (motion.yielding * state.stiff_force) * free_normal;
+                                         half * motion.yielding * dot(free_normal, normal));
+  motion.new_velocity = motion.new_velocity + (motion.yielding * state.stiff_force) * free_normal;
   if (friction_ > 0.0) advance_stiff_friction(frame, motion, freedom, nearest, old_pressure, state);
   if (!(state.stiff_force > 0.0)) {
     // What began below the surface goes on from the highest place to which it has risen.
@@ -145,17 +149,17 @@ void RigidContact::advance_stiff_friction(const MasterFrame& frame, const StiffM
     const auto place = frame.inverse * motion.arm;
     const auto foot = place - nearest.distance * nearest.normal;
     if (state.closed == 0.0) state.anchor = foot.component;  // it sticks where it comes down
-    auto stretch = foot - Vector3<double>{state.anchor} + frame.inverse * motion.after;
+    auto stretch = foot - Vector3<double>{state.anchor} + frame.inverse * (motion.next * motion.new_velocity);
     stretch = stretch - dot(stretch, nearest.normal) * nearest.normal;
     const auto normal = frame.rotation * nearest.normal;
-    auto yielding = tangential_yielding(freedom, normal, motion.yielding);
+    auto yielding = tangential_yielding(freedom, normal, motion.next * motion.yielding);
     yielding.axis = frame.inverse * yielding.axis;
     const auto found = stiff_friction(limit, tangential_stiffness(parameters, limit), stretch, yielding);
     friction = found.force;
     state.anchor = (Vector3<double>{state.anchor} + found.slip).component;
     state.slip += std::sqrt(dot(found.slip, found.slip));
   }
-  state.frictional_dissipation -= 0.5 * dot(old_friction + friction, frame.inverse * motion.before) +
+  state.frictional_dissipation -= 0.5 * dot(old_friction + friction, frame.inverse * (motion.previous * motion.old_velocity)) +
                                   tangential_energy(parameters, limit, friction) -
                                   tangential_energy(parameters, old_limit, old_friction);
   state.stiff_friction = friction.component;

@@ -41,6 +41,17 @@ def block(nx, ny, nz, size, element="C3D8R", height=0.0, law="*ELASTIC\n10., 0.3
 ENERGIES = "*OUTPUT, HISTORY, TIME INTERVAL={}\n*NODE OUTPUT, NSET=NREF\nRF2\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLCW, ALLVD, ALLWK, ETOTAL\n*END STEP\n"
 
 
+def bouncing_plate(job):
+    """A flat plate bounces with half the automatic increment (near the whole one the ringing through its single layer of elements is
+    not resolved); no viscosity: changes of the increment do not pump the energy of its ringing."""
+    deck = block(6, 1, 6, (10.0, 2.0, 10.0), "C3D8", height=1.0, law="*ELASTIC\n70000., 0.3", density=2.7e-9)
+    job.run(deck + "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 2, -5000.\n*STEP\n*DYNAMIC, EXPLICIT, SCALE FACTOR=0.5\n, 0.002\n*BULK VISCOSITY\n0., 0.\n"
+            + ENERGIES.format(2e-5))
+    check_energy(job, 1e-2)
+    velocity = job.history("energy", "ALLKE")[1]
+    check("it does not lose its energy in the impact", velocity[-20:].mean() / velocity[0], 1.0, 0.25)
+
+
 def pressed_block(job, friction=0.0):
     """A rubber block pressed 20 %: the same force in statics and, slowly, in the explicit loop; it stands on the ground."""
     rubber = "*HYPERELASTIC, NEO HOOKE\n0.5, 0.1"
@@ -156,7 +167,7 @@ def rigid_part(job):
     check("a run that resumes", float(np.isfinite(job.history("energy", "ETOTAL", 3)[1]).all()), 1.0, 0.0)
 
 
-CASES = {case.__name__: case for case in (pressed_block, rubbing_block, lifted_block, velocities_set_once, lost_energy,
+CASES = {case.__name__: case for case in (bouncing_plate, pressed_block, rubbing_block, lifted_block, velocities_set_once, lost_energy,
                                           blown_up_at_the_end, past_the_end, below_the_ground, rigid_part)}
 
 if __name__ == "__main__":
