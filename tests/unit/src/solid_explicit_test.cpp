@@ -75,7 +75,8 @@ TEST_P(ExplicitSolid, DissipationIsTheWorkOfTheViscousForces) {
       c.velocity[4 * (i / 3) + i % 3] = uniform(random);
       c.position[4 * (i / 3) + i % 3] += increment * c.velocity[4 * (i / 3) + i % 3];
     }
-    c.explicit_cycle(increment, 0.06, 1.2);
+    const bool bulk = beta == 0.0;
+    c.explicit_cycle(increment, bulk ? 0.06 : 0.0, bulk ? 1.2 : 0.0);
     Eigen::VectorXd f;
     Eigen::MatrixXd k;
     c.assemble(f, k);
@@ -84,6 +85,7 @@ TEST_P(ExplicitSolid, DissipationIsTheWorkOfTheViscousForces) {
       work -= (c.force[4 * (i / 3) + i % 3] + f(i)) * c.velocity[4 * (i / 3) + i % 3] * increment;
     for (int e = 0; e < c.group->size(); ++e)
       dissipated += c.group->energies(e, {c.position.data()}, c.element_history(e)).viscous;
+    if (bulk) work *= 0.5;  // the trapezoid, from no viscous stress at the start
     EXPECT_GT(work, 0.0);
     EXPECT_NEAR(dissipated, work, 2e-4 * work)
         << "beta = " << beta;  // rate from the volumes at both ends: error of order dt |grad v|
