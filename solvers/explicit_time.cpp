@@ -15,6 +15,7 @@ constexpr double increments_without_limit = 1000.0;
 // At the very limit the highest mode of a uniform mesh grows with time, and slightly below it any disturbance is magnified by
 // 1 / (1 - (omega dt / 2)^2).
 constexpr double below_limit = 0.95;
+constexpr double increments_to_land = 100.0;  // so long before its end a step begins to share out what remains
 constexpr double landing_tolerance = 1e-9;  // of an increment: rounding of accumulated times
 }  // namespace
 
@@ -45,7 +46,8 @@ double TimeControl::next_increment(State& state, double previous, double stable)
   if (remaining <= 0.0) return 0.0;
   const double increment = fixed_ > 0.0 ? fixed_ : automatic(state, previous, stable);
   if (increment * (1.0 + landing_tolerance) >= remaining) return remaining;
-  return fixed_ == 0.0 && increment > 0.5 * remaining ? 0.5 * remaining : increment;
+  const double left = std::ceil(remaining / increment - landing_tolerance);
+  return fixed_ == 0.0 && left <= increments_to_land ? remaining / left : increment;
 }
 
 double TimeControl::time_after(double step_time, double increment) const {

@@ -44,8 +44,9 @@ class TimeControl {
  public:
   explicit TimeControl(const Step& step);
 
-  /// Increment that follows the state's instant when `previous` led there (0: none) and `stable` is the limit; 0 at the end of the step. It lands on the step's end exactly and splits what remains evenly, so that no
-  /// sliver is left over. Keeps State::least_stable.
+  /// Increment that follows the state's instant when `previous` led there (0: none) and `stable` is the limit; 0 at the end of the
+  /// step. It lands on the step's end exactly; the last hundred share out what remains, so that none is much shorter than those
+  /// before: a change of increment changes what vibrations conserve. Keeps State::least_stable.
   double next_increment(State& state, double previous, double stable) const;
   /// Time at the end of an increment, exactly the step's duration at its end.
   double time_after(double step_time, double increment) const;

@@ -58,6 +58,13 @@ TEST(TimeControl, LandsOnTheEndOfTheStep) {
   EXPECT_NEAR(state.step_time, 10.0, 1e-14);
 }
 
+TEST(TimeControl, LandsWithoutAShortIncrementThatWouldChangeWhatTheLongerOnesConserved) {
+  State state;
+  const auto taken = increments(automatic(1000.1), state, 1001, [](double) { return 1.0 / below_limit; });
+  EXPECT_NEAR(state.step_time, 1000.1, 1e-9);
+  for (const double increment : taken) EXPECT_NEAR(increment, 1.0, 0.01);
+}
+
 TEST(TimeControl, SquaresOfFrequenciesAddUp) {
   EXPECT_DOUBLE_EQ(combined_limit(0.5, 0.0, {}), 0.5);
   const double omega = 4.0;  // 2 / 0.5
