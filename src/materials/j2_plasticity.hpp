@@ -31,6 +31,7 @@ struct BackStress {
 
 struct J2Plasticity {
   static constexpr int most_back_stresses = 4;
+  static constexpr bool bounds_spatial_gradient = true;
   double bulk, shear;
   FlowStress flow;
   std::vector<BackStress> back_stresses;

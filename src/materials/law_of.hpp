@@ -10,7 +10,7 @@
 // Those with memory have a State<T>, an aggregate of scalars and tensors that is zero in the undeformed state, and
 //          void fields(State<T>& s, visit)                    calls visit(name, scalar, or array of components) for each
 //          stress(F or E, State<T>& s, double increment)      s: old on entry, new on return
-//          bound(F, P) or bound(E, S, s)
+//          bound(F, P) or bound(E, S, s); `bounds_spatial_gradient` = true: see Law
 //          EnergyDensity energy(F or E, const State<double>&), double transverse_stretch(E, const State<double>&)
 #pragma once
 
@@ -120,6 +120,26 @@ class LawOf final : public Law<kind> {
       stress[i] = component(result, i).value;
       for (int j = 0; j < n; ++j) stiffness[n * i + j] = component(result, i).derivative[j];
     }
+  }
+
+  void history_slope(std::span<const double, n> strain, double increment, std::span<const double> old_history, int row,
+                     std::span<double, n> slope) const override {
+    if constexpr (Remembers<Formulas>) {
+      Kinematics<Dual<n>> variables;
+      for (int k = 0; k < n; ++k) component(variables, k) = Dual<n>(strain[k], k);
+      auto state = Memory<Formulas, Dual<n>>::read(formulas_, old_history.data(), 1);
+      formulas_.stress(variables, state, increment);
+      int at = 0;
+      for_each_scalar(formulas_, state, [&](const char*, int, const Dual<n>& scalar) {
+        for (int k = 0; k < n && at == row; ++k) slope[k] = scalar.derivative[k];
+        ++at;
+      });
+    } else {
+      Law<kind>::history_slope(strain, increment, old_history, row, slope);
+    }
+  }
+  bool bounds_spatial_gradient() const override {
+    return requires { Formulas::bounds_spatial_gradient; };
   }
 
   EnergyDensity energy_density(std::span<const double, n> strain, std::span<const double> history) const override {

@@ -77,6 +77,12 @@ class Law {
   /// old history; `history` is old on entry and new on return.
   virtual void tangent(std::span<const double, n> strain, double increment, std::span<double> history,
                        std::span<double, n> stress, std::span<double> stiffness) const = 0;
+  /// Derivative, by the strain, of row `row` of the history that `increment` after the old one closes at `strain`.
+  virtual void history_slope(std::span<const double, n> strain, double increment, std::span<const double> old_history, int row,
+                             std::span<double, n> slope) const;
+  /// Whether the shear bound of a solid is |F^-1|^2 times one of the spatial gradient, d2W <= volumetric (tr l)^2 + 2 shear l : l
+  /// with l = dF F^-1, which is the sharper one then.
+  virtual bool bounds_spatial_gradient() const { return false; }
   /// Energies of the state that `history` closed at `strain`.
   virtual EnergyDensity energy_density(std::span<const double, n> strain, std::span<const double> history) const = 0;
   /// The same bits for every point of a batch, with history[component * stride + point - first].
@@ -93,6 +99,11 @@ class Law {
   /// Ratio of current to reference thickness of a plane point or section of a line (1 where the law has no say).
   virtual double transverse_stretch(std::span<const double, n> strain, std::span<const double> history) const = 0;
 };
+
+template <PointKind kind>
+void Law<kind>::history_slope(std::span<const double, n>, double, std::span<const double>, int, std::span<double, n> slope) const {
+  for (double& component : slope) component = 0.0;
+}
 
 /// Row of a scalar of a law's history, an output variable by that name; -1 if the law has none.
 template <PointKind kind>

@@ -80,9 +80,12 @@ class FullSolid final : public ElementGroup {
   /// Adds beta * (initial stiffness : rate) to the stresses; returns the power.
   Pack add_damping(std::int32_t element, const ExplicitCycle& cycle, const FullSolidKinematics<Pack, Shape>& k,
                    Tensors<Pack>& stress) const;
-  Pack stable_increment(const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,
+  Pack stable_increment(const Coefficients<Pack>& c, const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,
                         const PointBatch<PointKind::solid>& points, const Pack& viscous_slope, bool damped,
                         const PackReference& reference) const;
+  /// Bound of the elastic stiffness; `dilatation` is V |d(ln Jbar)/dx|^2.
+  Pack stiffness_bound(const Coefficients<Pack>& c, const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,
+                       const PointBatch<PointKind::solid>& points, const Pack& dilatation, const PackReference& reference) const;
   template <class T>
   Coefficients<T> coefficients_of(std::int32_t element, const double* position) const;
 
@@ -95,6 +98,7 @@ class FullSolid final : public ElementGroup {
   }
 
   SolidMaterial material_;
+  double natural_laplacian_;  // largest eigenvalue of sum_q dN_I/dxi . dN_J/dxi
   AlignedVector<double> records_;  // [pack][component][lane]
 };
 

@@ -62,10 +62,28 @@ std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
   return record;
 }
 
+/// Largest eigenvalue of sum_q dN_I/dxi . dN_J/dxi.
+template <class Shape>
+double natural_laplacian() {
+  static constexpr auto quadrature = Shape::quadrature();
+  Eigen::Matrix<double, Shape::nodes, Shape::nodes> laplacian = Eigen::Matrix<double, Shape::nodes, Shape::nodes>::Zero();
+  for (int q = 0; q < Shape::points; ++q)
+    for (int j = 0; j < 3; ++j) {
+      std::array<Vector3<double>, Shape::modes> derivative{};
+      for (int k = 0; k < Shape::modes; ++k) derivative[k][0] = quadrature[q].derivative[k][j];
+      const auto nodal = Shape::nodal(derivative);
+      Eigen::Matrix<double, Shape::nodes, 1> gradient;
+      for (int node = 0; node < Shape::nodes; ++node) gradient(node) = nodal[node][0];
+      laplacian += gradient * gradient.transpose();
+    }
+  return Eigen::SelfAdjointEigenSolver<decltype(laplacian)>(laplacian, Eigen::EigenvaluesOnly).eigenvalues()(Shape::nodes - 1);
+}
+
 template <class Shape>
 FullSolid<Shape>::FullSolid(const GroupInput& input)
     : ElementGroup(input),
       material_(SolidMaterial::of_section(input.model, input.model.sections.at(input.section))),
+      natural_laplacian_(natural_laplacian<Shape>()),
       records_(static_cast<std::size_t>(padded_size_) * Record::size) {
   const Section& section = input.model.sections[input.section];
   std::array<Vector3<double>, Shape::nodes> nodes;
@@ -120,7 +138,8 @@ template <class Shape>
                                                  std::span<double> history) const {
   const PackReference reference = pack_reference(element);
   prefetch_record(reference.data + pack_size * Record::size, Record::size);
-  const auto k = full_solid_kinematics<Shape>(gather_coefficients(element, cycle.motion.position), reference);
+  const auto c = gather_coefficients(element, cycle.motion.position);
+  const auto k = full_solid_kinematics<Shape>(c, reference);
   for (int q = 0; q < Shape::points; ++q)
     for (int i = 0; i < 9; ++i) store(k.modified[q].component[i], &points.strain[i][pack_size * q]);
   respond(element, cycle.increment, points, history);
@@ -147,7 +166,7 @@ template <class Shape>
   k.mean_jacobian.copy_to(&history[element], std::experimental::element_aligned);
   dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
   mean_stress.copy_to(&history[2 * padded_size_ + element], std::experimental::element_aligned);
-  return stable_increment(k, stress, points, viscosity.slope(length, rate), damped, reference);
+  return stable_increment(c, k, stress, points, viscosity.slope(length, rate), damped, reference);
 }
 
 template <class Shape>
@@ -201,24 +220,41 @@ Pack FullSolid<Shape>::add_damping(std::int32_t element, const ExplicitCycle& cy
 }
 
 template <class Shape>
-Pack FullSolid<Shape>::stable_increment(const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,
-                                        const PointBatch<PointKind::solid>& points, const Pack& viscous_slope,
-                                        bool damped, const PackReference& reference) const {
-  const Pack volume = reference[Record::volume], inverse_volume = 1.0 / volume, inverse = 1.0 / k.mean_jacobian;
-  FullSolidBound<Pack> bound;
-  for (int q = 0; q < Shape::points; ++q) {
-    const TangentBound<Pack> tangent{load(&points.volumetric_modulus[pack_size * q]),
-                                     load(&points.shear_modulus[pack_size * q])};
-    bound.add_point(k.modified[q], stress[q], tangent, k.scale[q], k.jacobian[q] * inverse,
-                    inverse_volume * reference[Record::point(q) + 9]);
+Pack FullSolid<Shape>::stiffness_bound(const Coefficients<Pack>& c, const FullSolidKinematics<Pack, Shape>& k,
+                                       const Tensors<Pack>& stress, const PointBatch<PointKind::solid>& points,
+                                       const Pack& dilatation, const PackReference& reference) const {
+  const Pack inverse_volume = 1.0 / reference[Record::volume], inverse = 1.0 / k.mean_jacobian;
+  const auto tangent = [&](int q) {
+    return TangentBound<Pack>{load(&points.volumetric_modulus[pack_size * q]), load(&points.shear_modulus[pack_size * q])};
+  };
+  if (material_.law->bounds_spatial_gradient()) {
+    SpatialSolidBound<Pack> bound;
+    for (int q = 0; q < Shape::points; ++q) {
+      const Pack weight = reference[Record::point(q) + 9];
+      bound.add_point(k.modified[q], natural_gradient<Shape>(c, q), stress[q], tangent(q), k.scale[q], k.jacobian[q] * inverse,
+                      weight, inverse_volume * weight);
+    }
+    return bound.volumetric() * dilatation + bound.distortional(reference[Record::laplacian_bound], natural_laplacian_);
   }
+  FullSolidBound<Pack> bound;
+  for (int q = 0; q < Shape::points; ++q)
+    bound.add_point(k.modified[q], stress[q], tangent(q), k.scale[q], k.jacobian[q] * inverse,
+                    inverse_volume * reference[Record::point(q) + 9]);
+  return bound.volumetric() * dilatation + bound.distortion * reference[Record::laplacian_bound];
+}
+
+template <class Shape>
+Pack FullSolid<Shape>::stable_increment(const Coefficients<Pack>& c, const FullSolidKinematics<Pack, Shape>& k,
+                                        const Tensors<Pack>& stress, const PointBatch<PointKind::solid>& points,
+                                        const Pack& viscous_slope, bool damped, const PackReference& reference) const {
+  const Pack volume = reference[Record::volume], inverse_volume = 1.0 / volume, inverse = 1.0 / k.mean_jacobian;
   // d(ln Jbar)/dx is the nodal force of a unit mean stress, over V Jbar.
   const auto gradient = Shape::nodal(full_solid_conjugates<Shape>(k, Tensors<Pack>{}, Pack(1.0), reference));
   Pack square = 0.0;
   for (const auto& node : gradient) square += dot(node, node);
   const Pack dilatation = square * ((inverse * inverse) * inverse_volume);  // V |d(ln Jbar)/dx|^2
 
-  const Pack stiffness = bound.volumetric() * dilatation + bound.distortion * reference[Record::laplacian_bound];
+  const Pack stiffness = stiffness_bound(c, k, stress, points, dilatation, reference);
   const Pack inverse_mass = material_.density > 0.0 ? (Shape::nodes / material_.density) * inverse_volume : Pack(0.0);
   const Pack omega_square = inverse_mass * stiffness;
   const Pack damping = inverse_mass * (viscous_slope * (k.mean_jacobian * dilatation)) +

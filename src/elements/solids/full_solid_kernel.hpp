@@ -31,9 +31,9 @@ struct FullSolidKinematics {
   T mean_jacobian;                                 // Jbar
 };
 
-/// F at a point.
-template <class Shape, class T, class Reference>
-Matrix3<T> deformation_gradient(const std::array<Vector3<T>, Shape::modes>& c, int q, const Reference& reference) {
+/// dx/dxi at a point.
+template <class Shape, class T>
+Matrix3<T> natural_gradient(const std::array<Vector3<T>, Shape::modes>& c, int q) {
   static constexpr auto quadrature = Shape::quadrature();
   Matrix3<T> natural;
   for (int i = 0; i < 3; ++i) {
@@ -44,6 +44,13 @@ Matrix3<T> deformation_gradient(const std::array<Vector3<T>, Shape::modes>& c, i
       natural(i, j) = sum;
     }
   }
+  return natural;
+}
+
+/// F at a point.
+template <class Shape, class T, class Reference>
+Matrix3<T> deformation_gradient(const std::array<Vector3<T>, Shape::modes>& c, int q, const Reference& reference) {
+  const Matrix3<T> natural = natural_gradient<Shape>(c, q);
   const int base = FullSolidRecord<Shape>::point(q);
   Matrix3<T> f;
   for (int i = 0; i < 3; ++i)

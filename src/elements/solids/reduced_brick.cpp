@@ -29,16 +29,32 @@ const RegisterElement registered({.name = "C3D8R",
 
 }  // namespace
 
+HourglassFlow HourglassFlow::of(const SolidMaterial& material, const Section& section, int own_history) {
+  HourglassFlow flow;
+  const int strain = field_row(*material.law, "PEEQ");
+  if (strain < 0 || section.hourglass != HourglassControl::enhanced) return flow;
+  flow.plastic_strain = own_history + history_size + strain;
+  flow.plastic_deformation = own_history + history_size + field_row(*material.law, "FP");
+  const double lame = material.stiffness[1], shear = material.stiffness[21];
+  flow.shear = shear;
+  flow.twice_shear = section.hourglass_scale * 2.0 * shear;
+  flow.plane_ratio = lame / (lame + 2.0 * shear);
+  flow.young = section.hourglass_scale * shear * (3.0 * lame + 2.0 * shear) / (lame + shear);
+  return flow;
+}
+
 ReducedBrick::ReducedBrick(const GroupInput& input)
     : ElementGroup(input),
       material_(SolidMaterial::of_section(input.model, input.model.sections.at(input.section))),
       enhanced_(input.model.sections[input.section].hourglass == HourglassControl::enhanced),
+      flow_(HourglassFlow::of(material_, input.model.sections[input.section], own_history)),
+      law_row_(flow_.active() ? own_history + HourglassFlow::history_size : own_history),
       records_(static_cast<std::size_t>(padded_size_) * brick_record::size) {
   const Section& section = input.model.sections[input.section];
   std::array<Vector3<double>, nodes_per_brick> nodes;
   for (std::int32_t lane = 0; lane < padded_size_; ++lane) {
     reference_nodes(input.model, section, input.model.elements[input.table], rows_[lane], nodes);
-    const auto record = reduced_brick_record(HexahedronGeometry(nodes), material_, section);
+    const auto record = reduced_brick_record(HexahedronGeometry(nodes), material_, section, flow_.active());
     double* data = records_.data() + static_cast<std::size_t>(lane / pack_size) * pack_size * brick_record::size +
                    lane % pack_size;
     for (int k = 0; k < brick_record::size; ++k) data[pack_size * k] = record[k];
@@ -57,12 +73,14 @@ void ReducedBrick::lumped_volume(std::int32_t element, std::span<double> volume)
 StableIncrement ReducedBrick::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                                          std::span<double> history) const {
   const bool damped = material_.damping_beta > 0.0 && cycle.increment > 0.0;
-  if (damped)
-    return enhanced_ ? add_packs<true, true>(runs, cycle, history) : add_packs<false, true>(runs, cycle, history);
-  return enhanced_ ? add_packs<true, false>(runs, cycle, history) : add_packs<false, false>(runs, cycle, history);
+  const auto add = [&]<Hourglass hourglass>() {
+    return damped ? add_packs<hourglass, true>(runs, cycle, history) : add_packs<hourglass, false>(runs, cycle, history);
+  };
+  if (!enhanced_) return add.template operator()<Hourglass::scalar>();
+  return flow_.active() ? add.template operator()<Hourglass::flowing>() : add.template operator()<Hourglass::enhanced>();
 }
 
-template <bool enhanced, bool damped>
+template <ReducedBrick::Hourglass hourglass, bool damped>
 StableIncrement ReducedBrick::add_packs(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                                         std::span<double> history) const {
   StableIncrement smallest;
@@ -73,13 +91,13 @@ StableIncrement ReducedBrick::add_packs(std::span<const PackRun> runs, const Exp
   points.increment = cycle.increment;
   for (const auto& run : runs)
     for (std::int32_t element = run.first; element < run.last; element += pack_size) {
-      points.history = history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + element;
-      merge(add_pack<enhanced, damped>(element, cycle, points, history), element, smallest);
+      points.history = history.data() + static_cast<std::ptrdiff_t>(law_row_) * padded_size_ + element;
+      merge(add_pack<hourglass, damped>(element, cycle, points, history), element, smallest);
     }
   return smallest;
 }
 
-template <bool enhanced, bool damped>
+template <ReducedBrick::Hourglass hourglass, bool damped>
 [[gnu::flatten]] Pack ReducedBrick::add_pack(std::int32_t element, const ExplicitCycle& cycle,
                                              PointBatch<PointKind::solid>& points, std::span<double> history) const {
   const PackReference reference{records_.data() + static_cast<std::size_t>(element) * brick_record::size};
@@ -87,6 +105,14 @@ template <bool enhanced, bool damped>
   const HexahedronCoefficients<Pack> c = coefficients(gather_nodes(element, cycle.motion.position));
   const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
   for (int k = 0; k < 9; ++k) store(f.component[k], points.strain[k]);
+  const auto component = [&](int k) { return Pack(&history[k * padded_size_ + element], std::experimental::element_aligned); };
+  const auto shape = [&] {  // as it was when the increment began
+    if constexpr (hourglass == Hourglass::flowing)
+      return FlowedReference<Pack, PackReference>(reference, flow_, own_history, component);
+    else
+      return reference;
+  }();
+  const Pack plastic_strain = hourglass == Hourglass::flowing ? component(flow_.plastic_strain) : Pack(0.0);
   material_.law->stress(points);
   Matrix3<Pack> stress;
   for (int k = 0; k < 9; ++k) stress.component[k] = load(points.stress[k]);
@@ -98,6 +124,17 @@ template <bool enhanced, bool damped>
   const BulkViscosity viscosity(cycle.linear_bulk_viscosity, cycle.quadratic_bulk_viscosity, material_.density,
                                 material_.wave_speed);
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
+  std::array<Vector3<Pack>, 4> q = hourglass_vectors(c, f, shape);
+  if constexpr (hourglass == Hourglass::flowing) {
+    const Pack factor = flow_factor(stress, f, component(flow_.plastic_strain) - plastic_strain, flow_.shear);
+    const auto change = shape_change(factor, q, invariant);
+    q = flowed(factor, q);
+    const auto advance = [&](int k, const Pack& by) {
+      Pack(component(own_history + k) + by).copy_to(&history[(own_history + k) * padded_size_ + element], std::experimental::element_aligned);
+    };
+    for (int k = 0; k < 12; ++k) advance(k, change[k]);
+    advance(12, flow_dissipation(factor, hourglass_strains(c, q), shape));
+  }
   const Pack rate = volume_rate(invariant.jacobian, old_jacobian, inverse_increment);
   const Pack mean_stress = viscosity.stress(length, rate);
   const Pack old_stress(&history[2 * padded_size_ + element], std::experimental::element_aligned);
@@ -105,15 +142,14 @@ template <bool enhanced, bool damped>
   for (int k = 0; k < 9; ++k)
     stress.component[k] = volume * (stress.component[k] + mean_stress * invariant.cofactor.component[k]);
 
-  const std::array<Vector3<Pack>, 4> q = hourglass_vectors(c, f, reference);
   HexahedronCoefficients<Pack> conjugates;
   if constexpr (damped) {
     const BrickMotion<Pack> motion{c, f, q};
     const auto c_rate = coefficients(gather_nodes(element, cycle.motion.velocity));
-    conjugates = damped_conjugates<enhanced>(motion, c_rate, stress, material_, reference, cycle.increment, dissipation);
-  } else if constexpr (enhanced) {
-    const auto hourglass_stress = hourglass_stresses(hourglass_strains(c, q), reference);
-    conjugates = conjugates_with_stresses(c, q, hourglass_stress, stress, reference);
+    conjugates = damped_conjugates<hourglass != Hourglass::scalar>(motion, c_rate, stress, material_, shape, cycle.increment, dissipation);
+  } else if constexpr (hourglass != Hourglass::scalar) {
+    const auto hourglass_stress = hourglass_stresses(hourglass_strains(c, q), shape);
+    conjugates = conjugates_with_stresses(c, q, hourglass_stress, stress, shape);
   } else {
     conjugates = conjugates_with_scalar(scalar_hourglass_forces(q, reference), stress, reference);
   }
@@ -127,7 +163,10 @@ template <bool enhanced, bool damped>
   mean_stress.copy_to(&history[2 * padded_size_ + element], std::experimental::element_aligned);
   const TangentBound<Pack> bound{load(points.volumetric_modulus), load(points.shear_modulus)};
   const BrickStability stability{material_.density, damped ? material_.damping_beta : 0.0};
-  return stability.increment(invariant, bound, q, viscosity.slope(length, rate), reference);
+  if constexpr (hourglass == Hourglass::flowing)
+    return stability.increment(invariant, f, bound, q, viscosity.slope(length, rate), shape);
+  else
+    return stability.increment(invariant, bound, q, viscosity.slope(length, rate), reference);
 }
 
 std::array<Vector3<Pack>, nodes_per_brick> ReducedBrick::gather_nodes(std::int32_t element, const double* nodal) const {
@@ -149,13 +188,14 @@ void ReducedBrick::energies(std::int32_t first, const NodalMotion& motion, std::
   prefetch_record(reference.data + pack_size * brick_record::size, brick_record::size);
   const HexahedronCoefficients<Pack> c = coefficients(gather_nodes(element, motion.position));
   const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
-  const Pack hourglass = hourglass_energy(c, hourglass_vectors(c, f, reference), reference, enhanced_);
+  const Pack hourglass = artificial_energy(
+      c, f, reference, [&](int k) { return Pack(&history[k * padded_size_ + element], std::experimental::element_aligned); });
   const Pack volume = reference[brick_record::volume];
   PointBatch<PointKind::solid> points;
   points.count = pack_size;
   for (int k = 0; k < 9; ++k) store(f.component[k], points.strain[k]);
   std::array<EnergyDensity, pack_size> density;
-  material_.law->energy_densities(points, history.data() + static_cast<std::ptrdiff_t>(own_history) * padded_size_ + element,
+  material_.law->energy_densities(points, history.data() + static_cast<std::ptrdiff_t>(law_row_) * padded_size_ + element,
                                   padded_size_, density);
   for (int lane = 0; lane < pack_size; ++lane)
     of_lanes[lane] = element_energies(volume[lane], density[lane], hourglass[lane], history[padded_size_ + element + lane]);

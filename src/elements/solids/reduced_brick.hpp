@@ -5,6 +5,7 @@
 
 #include "elements/aligned_vector.hpp"
 #include "elements/element_group.hpp"
+#include "elements/solids/reduced_brick_flow.hpp"
 #include "elements/solids/reduced_brick_kernel.hpp"
 #include "elements/solids/solid_reference.hpp"
 
@@ -16,11 +17,11 @@ class ReducedBrick final : public ElementGroup {
  public:
   explicit ReducedBrick(const GroupInput& input);
 
-  int history_size() const override { return own_history + material_.law->history_size(); }
+  int history_size() const override { return law_row_ + material_.law->history_size(); }
   void initialize_history(std::span<double> history) const override;
   int law_field_row(std::string_view field, int) const override {
     const int row = field_row(*material_.law, field);
-    return row < 0 ? row : own_history + row;
+    return row < 0 ? row : law_row_ + row;
   }
   void lumped_volume(std::int32_t element, std::span<double> volume) const override;
   double density() const override { return material_.density; }
@@ -39,12 +40,15 @@ class ReducedBrick final : public ElementGroup {
   std::size_t bytes_per_element() const override;
 
  private:
-  static constexpr int own_history = 3;  // Jacobian, viscous dissipation and viscous mean stress after the last increment; then the law's
+  /// Jacobian, viscous dissipation and viscous mean stress after the last increment; then what HourglassFlow keeps, if anything
+  /// yields; then the law's.
+  static constexpr int own_history = 3;
+  enum class Hourglass { scalar, enhanced, flowing };
 
-  template <bool enhanced, bool damped>
+  template <Hourglass hourglass, bool damped>
   StableIncrement add_packs(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                             std::span<double> history) const;
-  template <bool enhanced, bool damped>
+  template <Hourglass hourglass, bool damped>
   Pack add_pack(std::int32_t element, const ExplicitCycle& cycle, PointBatch<PointKind::solid>& points,
                 std::span<double> history) const;
 
@@ -57,11 +61,26 @@ class ReducedBrick final : public ElementGroup {
             .viscous = dissipation + volume * density.viscous,
             .plastic = volume * density.plastic};
   }
+  /// Energy of the hourglass stresses, with what their flow has dissipated; `history(k)`: component k of the element's history.
+  template <class T, class Reference>
+  T artificial_energy(const HexahedronCoefficients<T>& c, const Matrix3<T>& f, const Reference& reference, const auto& history) const {
+    if (!flow_.active()) return hourglass_energy(c, hourglass_vectors(c, f, reference), reference, enhanced_);
+    const FlowedReference<T, Reference> shape(reference, flow_, own_history, history);
+    return hourglass_energy(hourglass_strains(c, hourglass_vectors(c, f, shape)), shape) + history(own_history + 12);
+  }
 
-  /// Force (and stiffness) of one element over any scalar: T = double or Dual<24>.
+  /// Force (and stiffness) of one element over any scalar: T = double or Dual<24>. `plastic` is the increment of PEEQ.
   template <class T>
-  std::array<Vector3<T>, 8> static_forces(const HexahedronCoefficients<T>& c, const Matrix3<T>& f,
-                                          const Matrix3<T>& stress, const LaneReference& reference) const;
+  std::array<Vector3<T>, 8> static_forces(const HexahedronCoefficients<T>& c, const Matrix3<T>& f, const Matrix3<T>& stress,
+                                          const T& plastic, const LaneReference& reference,
+                                          std::span<const double> old_history) const;
+  /// Lets the hourglass shape flow, from the new state of the law in `history`; the rest of it is old.
+  void advance_shape(const HexahedronCoefficients<double>& c, const Matrix3<double>& f, const Matrix3<double>& stress,
+                     double plastic, const LaneReference& reference, std::span<const double> old_history,
+                     std::span<double> history) const;
+  FlowedReference<double, LaneReference> flowed_reference(const LaneReference& reference, std::span<const double> history) const {
+    return {reference, flow_, own_history, [&](int k) { return history[k]; }};
+  }
   template <class T>
   HexahedronCoefficients<T> coefficients_of(std::int32_t element, const double* position) const;
   LaneReference reference(std::int32_t element) const {
@@ -71,6 +90,8 @@ class ReducedBrick final : public ElementGroup {
 
   SolidMaterial material_;
   bool enhanced_;
+  HourglassFlow flow_;
+  int law_row_;  // where the law's history begins
   AlignedVector<double> records_;  // [pack][component][lane]
 };
 

@@ -65,18 +65,21 @@ std::array<T, 12> hourglass_stresses(const std::array<T, 12>& strain, const Refe
   return stress;
 }
 
-/// Energy of those strains; with HOURGLASS=STIFFNESS (not `enhanced`) k |q|^2 / 2.
-template <class T, class Reference>
-T hourglass_energy(const HexahedronCoefficients<T>& c, const std::array<Vector3<T>, 4>& q, const Reference& reference,
-                   bool enhanced) {
+/// Energy of those strains.
+template <class T>
+T hourglass_energy(const std::array<T, 12>& strain, const auto& reference) {
+  const auto stress = hourglass_stresses(strain, reference);
   T energy = T(0.0);
-  if (enhanced) {
-    const auto strain = hourglass_strains(c, q);
-    const auto stress = hourglass_stresses(strain, reference);
-    for (int k = 0; k < 12; ++k) energy = energy + 0.5 * strain[k] * stress[k];
-  } else {
-    for (const auto& vector : q) energy = energy + 0.5 * reference[brick_record::stiffness] * dot(vector, vector);
-  }
+  for (int k = 0; k < 12; ++k) energy = energy + 0.5 * strain[k] * stress[k];
+  return energy;
+}
+
+/// Energy of hourglass vectors: that of their strains, or with HOURGLASS=STIFFNESS (not `enhanced`) k |q|^2 / 2.
+template <class T>
+T hourglass_energy(const HexahedronCoefficients<T>& c, const std::array<Vector3<T>, 4>& q, const auto& reference, bool enhanced) {
+  if (enhanced) return hourglass_energy(hourglass_strains(c, q), reference);
+  T energy = T(0.0);
+  for (const auto& vector : q) energy = energy + 0.5 * reference[brick_record::stiffness] * dot(vector, vector);
   return energy;
 }
 

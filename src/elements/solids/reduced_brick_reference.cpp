@@ -73,8 +73,8 @@ constexpr double stiffness_control_factor = 0.005;
 
 }  // namespace
 
-std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeometry& geometry,
-                                                            const SolidMaterial& material, const Section& section) {
+std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeometry& geometry, const SolidMaterial& material,
+                                                            const Section& section, bool flows) {
   std::array<double, brick_record::size> record{};
   Gradients gradients, coefficients;
   for (int k = 0; k < 7; ++k) {
@@ -101,6 +101,14 @@ std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeom
     return record;
   }
   const Matrix33 axes = coefficients.leftCols<3>();
+  if (flows) {  // each vector is in two classes, of which plane stress of both normal strains is the stiffest: 2/3 E / (1 - nu)
+    Eigen::Map<Matrix33> sides(stiffness);
+    sides = axes;
+    const double lame = material.stiffness[1], shear = material.stiffness[21];
+    const double biaxial = 2.0 * shear * (3.0 * lame + 2.0 * shear) / (lame + 2.0 * shear);
+    record[brick_record::hourglass_bound] = section.hourglass_scale * (2.0 / 3.0) * biaxial;
+    return record;
+  }
   const Matrix66 compliance = natural_compliance(material, axes);
   std::array<Matrix33, 3> classes;
   for (int c = 0; c < 3; ++c) {

@@ -25,13 +25,31 @@ HexahedronCoefficients<T> ReducedBrick::coefficients_of(std::int32_t element, co
 
 template <class T>
 std::array<Vector3<T>, 8> ReducedBrick::static_forces(const HexahedronCoefficients<T>& c, const Matrix3<T>& f,
-                                                      const Matrix3<T>& stress, const LaneReference& reference) const {
-  const auto q = hourglass_vectors(c, f, reference);
+                                                      const Matrix3<T>& stress, const T& plastic, const LaneReference& reference,
+                                                      std::span<const double> old_history) const {
   const Matrix3<T> integrated = T(reference[brick_record::volume]) * stress;
+  const auto forces = [&](const std::array<Vector3<T>, 4>& q, const auto& shape) {
+    return nodal_forces(conjugates_with_stresses(c, q, hourglass_stresses(hourglass_strains(c, q), shape), integrated, shape));
+  };
+  if (flow_.active()) {
+    const auto shape = flowed_reference(reference, old_history);
+    return forces(flowed(flow_factor(stress, f, plastic, flow_.shear), hourglass_vectors(c, f, shape)), shape);
+  }
+  const auto q = hourglass_vectors(c, f, reference);
   if (!enhanced_)
     return nodal_forces(conjugates_with_scalar(scalar_hourglass_forces(q, reference), integrated, reference));
-  const auto hourglass_stress = hourglass_stresses(hourglass_strains(c, q), reference);
-  return nodal_forces(conjugates_with_stresses(c, q, hourglass_stress, integrated, reference));
+  return forces(q, reference);
+}
+
+void ReducedBrick::advance_shape(const HexahedronCoefficients<double>& c, const Matrix3<double>& f, const Matrix3<double>& stress,
+                                 double plastic, const LaneReference& reference, std::span<const double> old_history,
+                                 std::span<double> history) const {
+  const auto shape = flowed_reference(reference, old_history);
+  const auto trial = hourglass_vectors(c, f, shape);
+  const double factor = flow_factor(stress, f, plastic, flow_.shear);
+  const auto change = shape_change(factor, trial, invariants(f));
+  for (int k = 0; k < 12; ++k) history[own_history + k] += change[k];
+  history[own_history + 12] += flow_dissipation(factor, hourglass_strains(c, flowed(factor, trial)), shape);
 }
 
 bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
@@ -48,11 +66,13 @@ bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, st
   new_history[0] = jacobian;
   Matrix3<double> stress;
   std::array<double, 81> tangent;
-  material_.law->tangent(f.component, quasi_static, new_history.subspan(own_history), stress.component,
+  material_.law->tangent(f.component, quasi_static, new_history.subspan(law_row_), stress.component,
                          stiffness.empty() ? std::span<double>() : tangent);
+  const double plastic = flow_.active() ? new_history[flow_.plastic_strain] - old_history[flow_.plastic_strain] : 0.0;
+  if (flow_.active()) advance_shape(c, f, stress, plastic, record, old_history, new_history);
 
   if (stiffness.empty()) {
-    const auto forces = static_forces(c, f, stress, record);
+    const auto forces = static_forces(c, f, stress, plastic, record, old_history);
     for (int i = 0; i < 3 * nodes_per_brick; ++i) force[i] = forces[i / 3][i % 3];
     return true;
   }
@@ -65,7 +85,15 @@ bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, st
       for (int k = 0; k < 3 * nodes_per_brick; ++k)
         stress_dual.component[i].derivative[k] += tangent[9 * i + j] * f_dual.component[j].derivative[k];
   }
-  const auto forces = static_forces(c_dual, f_dual, stress_dual, record);
+  Derivative plastic_dual(plastic);
+  if (flow_.active()) {
+    std::array<double, 9> slope;
+    material_.law->history_slope(f.component, quasi_static, old_history.subspan(law_row_), flow_.plastic_strain - law_row_, slope);
+    for (int j = 0; j < 9; ++j)
+      for (int k = 0; k < 3 * nodes_per_brick; ++k)
+        plastic_dual.derivative[k] += slope[j] * f_dual.component[j].derivative[k];
+  }
+  const auto forces = static_forces(c_dual, f_dual, stress_dual, plastic_dual, record, old_history);
   for (int i = 0; i < 3 * nodes_per_brick; ++i) {
     force[i] = forces[i / 3][i % 3].value;
     for (int j = 0; j < 3 * nodes_per_brick; ++j)
@@ -79,8 +107,8 @@ ElementEnergies ReducedBrick::energies(std::int32_t element, const NodalMotion& 
   const LaneReference record = reference(element);
   const auto c = coefficients_of<double>(element, motion.position);
   const Matrix3<double> f = mean_deformation_gradient(c, record);
-  const EnergyDensity density = material_.law->energy_density(f.component, history.subspan(own_history));
-  const double hourglass = hourglass_energy(c, hourglass_vectors(c, f, record), record, enhanced_);
+  const EnergyDensity density = material_.law->energy_density(f.component, history.subspan(law_row_));
+  const double hourglass = artificial_energy(c, f, record, [&](int k) { return history[k]; });
   return element_energies(record[brick_record::volume], density, hourglass, history[1]);
 }
 
@@ -91,7 +119,7 @@ int ReducedBrick::point_components(std::string_view variable) const {
 void ReducedBrick::point_output(std::string_view variable, std::int32_t element, int, const NodalMotion& motion,
                                 std::span<const double> history, std::span<double> values) const {
   const Matrix3<double> f = mean_deformation_gradient(coefficients_of<double>(element, motion.position), reference(element));
-  solid_output(variable, material_, f, history.subspan(own_history), values);
+  solid_output(variable, material_, f, history.subspan(law_row_), values);
 }
 
 }  // namespace balocco

@@ -20,6 +20,7 @@ struct SolidOptions {
   std::string type = "C3D8R";
   std::string law = "elastic";
   std::vector<double> parameters{1000.0, 0.3};
+  std::vector<MaterialOption> material_options{};
   double density = 1.0, damping_beta = 0.0;
   HourglassControl hourglass = HourglassControl::enhanced;
   double hourglass_scale = 1.0;
@@ -101,6 +102,7 @@ inline SolidCase make_case(const SolidOptions& options, std::vector<Point> point
   material.name = "M";
   material.law = options.law;
   material.parameters = options.parameters;
+  material.options = options.material_options;
   material.density = options.density;
   material.damping_beta = options.damping_beta;
   c.model.materials.push_back(material);

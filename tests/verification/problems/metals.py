@@ -6,10 +6,6 @@ from meshes import BEAMS, FIELDS, SOLIDS, angle, block, elastic, line, patchwork
 from verification import problem
 
 
-STIFF_FOOT = ("the hourglass stiffness of the reduced brick stays elastic where the copper flows, and holds the foot's edge back; "
-              "order 0.6")
-
-
 @problem("J2", "bar pulled to a true strain of 1, E 200e3, nu 0.3, yield 400 + 100 x plastic strain", "closed form, ln(l / L) = s / E + ep",
          {"true stress": (400.0 + 100.0 * (1.0 - 499.75 / 200e3), 2e-3)}, {kind: (10, 40) for kind in ("C3D8", "C3D8R", "T3D2", "S4R")},
          lambda n: "%d increments" % n, {"C3D8R": 2e-3, "T3D2": 2e-3})
@@ -36,8 +32,8 @@ def yielding(young, poisson, stress, hardening, density=None, end=2.0):
 
 
 @problem("TAYLOR", "copper rod of 32.4 x 3.2 mm hits a smooth wall at 227 m/s; a quarter, 80 us", "Carina (Foulk 2021); Simo; Zienkiewicz",
-         {"radius of the face, mm": (7.15, 0.02), "length, mm": (21.45, 0.02)}, {kind: (3, 6) for kind in ("C3D8R", "C3D8")},
-         lambda n: "%d x %d" % (3 * n * n, 16 * n), {}, {("C3D8R", "radius of the face, mm"): STIFF_FOOT})
+         {"radius of the face, mm": (7.15, 0.02), "length, mm": (21.45, 0.02)}, {kind: (2, 3) for kind in ("C3D8R", "C3D8")},
+         lambda n: "%d x %d" % (3 * n * n, 16 * n), {"C3D8R": 0.02})
 def taylor(session, kind, n):
     """The published radii lie between 7.11 and 7.22 mm."""
     mesh = patchwork(kind, quarter_disc(3.2), n, [32.4 * k / (16 * n) for k in range(16 * n + 1)])

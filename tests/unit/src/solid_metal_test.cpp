@@ -1,0 +1,247 @@
+// Solids of metal: hourglass stresses that flow with the centre of C3D8R, and stable increments of what has flowed far.
+#include <gtest/gtest.h>
+
+#include <cstring>
+
+#include "solid_fixture.hpp"
+
+namespace balocco::testing {
+
+namespace {
+
+constexpr double young = 200.0, poisson = 0.3, yield = 0.4, shear = young / 2.6;
+
+SolidOptions metal(const std::string& type, double scale = 1.0) {
+  SolidOptions o;
+  o.type = type;
+  o.parameters = {young, poisson};
+  o.material_options = {{"plastic", {0.0}, {{yield, 0.0}, {yield + 0.2, 1.0}}}};
+  o.density = 2.0;
+  o.hourglass_scale = scale;
+  return o;
+}
+
+/// Positions `from` + `share` of the way to `to`.
+void place(SolidCase& c, const std::vector<double>& from, const std::vector<double>& to, double share) {
+  for (std::size_t i = 0; i < from.size(); ++i)
+    if (i % 4 != 3) c.position[i] = from[i] + share * (to[i] - from[i]);
+}
+
+/// One distorted element, led in `count` explicit cycles to where `a` and a random displacement of `size` put it.
+SolidCase flowed(const SolidOptions& o, const Block& block, const Eigen::Matrix3d& a, double size, int count, unsigned seed = 3) {
+  SolidCase c = make_block(o, block);
+  const std::vector<double> from = c.position;
+  c.move(affine(a));
+  shake(c, size, seed);
+  const std::vector<double> to = c.position;
+  for (int k = 1; k <= count; ++k) {
+    place(c, from, to, static_cast<double>(k) / count);
+    c.explicit_cycle(1e-3);
+  }
+  return c;
+}
+
+Block skewed(double skew) {
+  Block block;
+  block.skew = skew;
+  block.skew_boundary = true;
+  block.size = {1.0, 1.3, 0.7};
+  return block;
+}
+
+const Eigen::Matrix3d squeeze = Eigen::Vector3d(1.5, 1.5, 0.45).asDiagonal();
+
+}  // namespace
+
+/// While nothing yields the hourglass is that of elasticity, though its stiffness comes from the metric of the sides. Hourglass
+/// motion alone: no affine part, no mean strain.
+TEST(SolidMetal, HourglassIsElasticBelowYield) {
+  for (const double skew : {0.0, 0.2}) {
+    SolidOptions elastic = metal("C3D8R", 0.7);
+    elastic.material_options.clear();
+    SolidCase c = make_block(metal("C3D8R", 0.7), skewed(0.0)), e = make_block(elastic, skewed(0.0));
+    for (SolidCase* one : {&c, &e}) {
+      for (auto& x : one->model.nodes.coordinates) x[0] += skew * x[1];  // a parallelepiped: skew axes
+      Model& model = one->model;
+      one->group = model.elements[0].type->make_group({model, 0, 0, {0}, 0, model.elements[0].connectivity, 8});
+      one->move([](const Point& x) { return x; });
+    }
+    std::mt19937 random(4);
+    std::normal_distribution<double> normal;
+    for (int a = 0; a < 4; ++a) {
+      const double d[3] = {1e-4 * normal(random), 1e-4 * normal(random), 1e-4 * normal(random)};
+      const auto nodes = c.group->nodes(0);
+      static constexpr int corner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+      for (int i = 0; i < 8; ++i) {
+        const int x = corner[i][0], y = corner[i][1], z = corner[i][2];
+        const int mode[4] = {y * z, x * z, x * y, x * y * z};
+        for (int k = 0; k < 3; ++k) {
+          c.position[4 * nodes[i] + k] += mode[a] * d[k];
+          e.position[4 * nodes[i] + k] += mode[a] * d[k];
+        }
+      }
+    }
+    Eigen::VectorXd force, expected;
+    Eigen::MatrixXd k;
+    ASSERT_TRUE(c.linearize(0, force, k));
+    ASSERT_TRUE(e.linearize(0, expected, k));
+    EXPECT_GT(expected.norm(), 1e-5);
+    EXPECT_LT((force - expected).norm(), 1e-12 * expected.norm());
+    EXPECT_NEAR(c.group->energies(0, {c.position.data()}, c.element_history(0)).hourglass,
+                e.group->energies(0, {e.position.data()}, e.element_history(0)).hourglass, 1e-15);
+  }
+}
+
+/// Flow with plastic strain dp lets mises / (mises + 3 G dp) of the hourglass stress, and so the square of the energy, remain.
+TEST(SolidMetal, HourglassFlowsWithTheCentre) {
+  const double bend = 1e-3;
+  SolidCase c = make_block(metal("C3D8R"), {});
+  const auto nodes = c.group->nodes(0);
+  const auto hourglass = [&] {
+    return c.group->energies(0, {c.position.data()}, c.element_history(0)).hourglass;
+  };
+  const auto stretch = [&](double true_strain) {  // uniaxial stress but for the elastic part; bending is in proportion to the sides
+    const double across = std::exp(-0.5 * true_strain);
+    c.move(affine(Eigen::Vector3d(std::exp(true_strain), across, across).asDiagonal()));
+    for (int i = 0; i < 8; ++i) {
+      const bool odd = (i % 4 == 1 || i % 4 == 2) != (i >= 4);
+      c.position[4 * nodes[i]] += (odd ? bend : -bend) * std::exp(true_strain);
+    }
+    c.explicit_cycle(1e-3);
+  };
+  stretch(0.0);
+  const double elastic = hourglass();
+  EXPECT_GT(elastic, 0.0);
+  stretch(0.01);
+  const double p = c.element_history(0)[c.group->law_field_row("PEEQ", 0)], mises = yield + 0.2 * p;
+  const double factor = mises / (mises + 3.0 * shear * p);
+  EXPECT_GT(p, 0.005);
+  // c . q grows with the square of the stretch; the metric is then that of the new shape, by whose square the energy falls again.
+  const double left = factor * factor * elastic * std::exp(0.04), lost = 2.0 * (1.0 - factor) / factor * left;
+  const double metric = std::exp(4.0 * p);
+  EXPECT_NEAR(hourglass(), left / metric + lost, 1e-3 * left);
+}
+
+/// Affine flow, however large, leaves hourglass stresses what they were per side; the shape does not creep under it.
+TEST(SolidMetal, AffineFlowStrainsNoHourglass) {
+  SolidCase c = flowed(metal("C3D8R"), skewed(0.0), squeeze, 0.0, 400);
+  EXPECT_GT(c.element_history(0)[c.group->law_field_row("PEEQ", 0)], 0.5);
+  const ElementEnergies energies = c.group->energies(0, {c.position.data()}, c.element_history(0));
+  EXPECT_LT(energies.hourglass, 1e-20 * energies.plastic);
+}
+
+/// The tangent holds for increments in which the centre flows: the error of a central difference falls with the square of its step.
+TEST(SolidMetal, TangentIsTheDerivativeOfTheForce) {
+  SolidCase c = flowed(metal("C3D8R"), skewed(0.1), squeeze, 0.05, 50);
+  const std::vector<double> start = c.position;
+  std::mt19937 random(5);
+  std::normal_distribution<double> normal;
+  std::vector<double> direction(start.size());
+  for (auto& d : direction) d = normal(random);
+  const std::vector<double> history = c.history;
+  const auto at = [&](double step) {
+    for (std::size_t i = 0; i < start.size(); ++i)
+      if (i % 4 != 3) c.position[i] = start[i] * (1.0 + 0.01 * (i % 4)) + step * direction[i];
+    Eigen::VectorXd f;
+    Eigen::MatrixXd k;
+    c.assemble(f, k);
+    return std::pair(f, k);
+  };
+  Eigen::VectorXd along(c.dofs());
+  for (int i = 0; i < c.dofs(); ++i) along(i) = direction[4 * (i / 3) + i % 3];
+  const Eigen::VectorXd exact = at(0.0).second * along;
+  const auto error = [&](double step) {
+    return ((at(step).first - at(-step).first) / (2.0 * step) - exact).norm() / exact.norm();
+  };
+  const double coarse = error(2e-4), fine = error(1e-4);
+  EXPECT_LT(fine, 1e-3);
+  EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15);
+}
+
+/// A lane equals the scalar: forces and history, bit for bit, where the law is quasi-static and nothing is viscous.
+TEST(SolidMetal, PacksEqualScalars) {
+  SolidCase c = flowed(metal("C3D8R"), skewed(0.1), squeeze, 0.1, 20);
+  for (std::size_t i = 0; i < c.position.size(); ++i)
+    if (i % 4 != 3) c.position[i] *= 1.0 + 0.01 * (i % 4);
+  const std::vector<double> old_history = c.element_history(0);
+  std::vector<double> history(old_history), force(24);
+  ASSERT_TRUE(c.group->linearize(0, {c.position.data()}, old_history, history, force, {}));
+  const double before = c.element_history(0)[c.group->law_field_row("PEEQ", 0)];
+  c.explicit_cycle();
+  const std::vector<double> packed = c.element_history(0);
+  EXPECT_GT(packed[c.group->law_field_row("PEEQ", 0)], before);
+  EXPECT_EQ(std::memcmp(packed.data(), history.data(), sizeof(double) * history.size()), 0);
+  for (int i = 0; i < 24; ++i) EXPECT_EQ(c.force[4 * c.group->nodes(0)[i / 3] + i % 3], 0.0 - force[i]);
+}
+
+/// Work of the forces on a path that bends and squeezes an element, against its energies. What is missed, next to the hourglass
+/// energy, falls with the increment to the order of the elastic strain: moduli follow the shape that flow has given.
+TEST(SolidMetal, EnergyBalances) {
+  const auto miss = [](int count) {
+    SolidCase c = make_block(metal("C3D8R"), skewed(0.1));
+    const std::vector<double> from = c.position;
+    c.move(affine(squeeze));
+    shake(c, 0.25);
+    const std::vector<double> to = c.position;
+    double work = 0.0;
+    c.position = from;
+    std::vector<double> old_force = c.force, old_position = from;
+    for (int k = 1; k <= count; ++k) {
+      place(c, from, to, static_cast<double>(k) / count);
+      c.explicit_cycle(1e-3);
+      for (std::size_t i = 0; i < c.position.size(); ++i)
+        if (i % 4 != 3) work -= 0.5 * (c.force[i] + old_force[i]) * (c.position[i] - old_position[i]);
+      old_force = c.force;
+      old_position = c.position;
+    }
+    const ElementEnergies e = c.group->energies(0, {c.position.data()}, c.element_history(0));
+    EXPECT_GT(e.hourglass, 0.0015 * work);
+    return std::fabs(work - e.strain - e.plastic - e.viscous - e.hourglass) / e.hourglass;
+  };
+  EXPECT_LT(miss(500), 0.015);
+  EXPECT_LT(miss(2000), 0.008);
+}
+
+/// Squeezed, bent, flowed far: the estimate never exceeds 2 / omega_max of the element that unloads, and does not fall far below.
+TEST(SolidMetal, StableIncrementIsSafeAndSharp) {
+  std::mt19937 random(11);
+  std::normal_distribution<double> normal;
+  for (const std::string type : {"C3D8R", "C3D8", "C3D6"}) {
+    double worst = 0.0, least = 1.0, sum = 0.0;
+    int count = 0;
+    for (int trial = 0; trial < 60; ++trial) {
+      Block block = skewed(0.03 * (trial % 5));
+      Eigen::Matrix3d a = trial % 3 == 0 ? squeeze : Eigen::Matrix3d::Identity().eval();
+      for (int i = 0; i < 9; ++i) a(i / 3, i % 3) += 0.1 * (trial % 4) * normal(random);
+      if (a.determinant() < 0.3) continue;
+      a /= std::cbrt(a.determinant());
+      SolidCase c = flowed(metal(type), block, rotation(0.2 * trial, {1, 2, 3}) * a, 0.02 * (trial % 3), 200, trial);
+      for (std::size_t i = 0; i < c.position.size(); ++i)
+        if (i % 4 != 3) c.position[i] *= 1.0 - 2e-5;  // off the yield surface
+      const double estimate = c.explicit_cycle().increment;
+      double largest = 0.0;
+      for (int e = 0; e < c.group->size(); ++e) {
+        Eigen::VectorXd f;
+        Eigen::MatrixXd k;
+        if (!c.linearize(e, f, k)) continue;
+        std::vector<double> mass(c.group->nodes_per_element());
+        c.group->lumped_mass(e, mass);
+        const double omega = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (k + k.transpose())).eigenvalues()(k.rows() - 1);
+        largest = std::max(largest, omega / mass[0]);
+      }
+      if (!(estimate > 0.0)) continue;
+      const double ratio = estimate / (2.0 / std::sqrt(largest));
+      worst = std::max(worst, ratio);
+      least = std::min(least, ratio);
+      sum += ratio;
+      ++count;
+    }
+    std::printf("%s: estimate / exact: least %.3f, mean %.3f, largest %.6f, %d cases\n", type.c_str(), least, sum / count, worst, count);
+    EXPECT_GT(count, 40) << type;
+    EXPECT_LE(worst, 1.0 + 1e-9) << type;
+    EXPECT_GE(sum / count, 0.6) << type;
+    EXPECT_GE(least, 0.3) << type;
+  }
+}
+
+}  // namespace balocco::testing
