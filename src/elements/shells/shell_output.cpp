@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "elements/membranes/membrane_output.hpp"
+#include "elements/plastic_strain.hpp"
 #include "elements/shells/shell.hpp"
 
 namespace balocco {
@@ -21,10 +22,22 @@ Request request(std::string_view variable, int layer, int layers) {
   return {variable, layer};
 }
 
+/// Young's modulus and Poisson's ratio of an isotropic law, from its plane stress stiffness at rest.
+std::array<double, 2> elastic_constants(const Law<PointKind::plane>& law) {
+  std::vector<double> history(law.history_size(), 0.0);
+  std::array<double, 3> stress;
+  std::array<double, 9> stiffness;
+  law.tangent(std::array<double, 3>{}, 0.0, history, stress, stiffness);
+  const double poisson = stiffness[1] / stiffness[0];
+  return {stiffness[0] * (1.0 - poisson * poisson), poisson};
+}
+
 /// Components of what belongs to a layer; 0: it does not.
 int layer_components(const ShellSection& section, std::string_view variable) {
   if (section.layers.empty()) return 0;
   if (variable == "S" || variable == "LE") return 6;
+  if (variable == "PE")
+    return std::ranges::any_of(section.plies, [](const ShellPly& ply) { return history_scalar(*ply.law, "PEEQ") >= 0; }) ? 6 : 0;
   if (variable == "MISES" || variable == "SENER") return 1;
   return std::ranges::any_of(section.plies,
                              [&](const ShellPly& ply) { return history_scalar(*ply.law, variable) >= 0; })
@@ -105,6 +118,10 @@ void ShellGroup<corners, points>::layer_output(std::string_view variable, int po
     ply.law->tangent(strain, 0.0, scratch, stress, {});
     const auto cauchy = plane_cauchy_stress(strain, stress, stretch);
     if (variable == "S") std::ranges::copy(cauchy, values.begin());
+    if (variable == "PE" && history_scalar(*ply.law, "PEEQ") >= 0) {
+      const auto [young, poisson] = elastic_constants(*ply.law);
+      std::ranges::copy(plastic_strain(plane_logarithmic_strain(strain, stretch), cauchy, young, poisson), values.begin());
+    }
     if (variable == "MISES") values[0] = mises_stress(cauchy);
   }
 }

@@ -1,8 +1,12 @@
 #include "elements/solids/solid_output.hpp"
 
 #include <Eigen/Dense>
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <vector>
+
+#include "elements/plastic_strain.hpp"
 
 namespace balocco {
 
@@ -33,10 +37,20 @@ Eigen::Matrix3d cauchy_stress(const SolidMaterial& material, const Matrix3<doubl
   return as_eigen(piola) * as_eigen(f).transpose() / as_eigen(f).determinant();
 }
 
+/// PE of a metal, in global directions.
+std::array<double, 6> plastic_strain_of(const SolidMaterial& material, const Matrix3<double>& f, std::span<const double> law_history) {
+  std::array<double, 6> strain, stress;
+  copy_symmetric(logarithmic_strain(as_eigen(f)), 2.0, strain);
+  copy_symmetric(cauchy_stress(material, f, law_history), 1.0, stress);
+  const double lame = material.stiffness[1], shear = material.stiffness[21];
+  return plastic_strain(strain, stress, shear * (3.0 * lame + 2.0 * shear) / (lame + shear), 0.5 * lame / (lame + shear));
+}
+
 }  // namespace
 
 int solid_output_components(const SolidMaterial& material, std::string_view variable) {
   if (variable == "S" || variable == "LE") return 6;
+  if (variable == "PE") return history_scalar(*material.law, "PEEQ") >= 0 ? 6 : 0;
   if (variable == "MISES" || variable == "PRESS" || variable == "SENER") return 1;
   return history_scalar(*material.law, variable) >= 0 ? 1 : 0;
 }
@@ -50,6 +64,8 @@ void solid_output(std::string_view variable, const SolidMaterial& material, cons
   } else if (variable == "LE") {
     copy_symmetric(logarithmic_strain(as_eigen(deformation_gradient)), 2.0,
                    values);  // shear as 2 LE12, as Abaqus writes it
+  } else if (variable == "PE") {
+    std::ranges::copy(plastic_strain_of(material, deformation_gradient, law_history), values.begin());
   } else {
     const Eigen::Matrix3d stress = cauchy_stress(material, deformation_gradient, law_history);
     const double mean = stress.trace() / 3.0;

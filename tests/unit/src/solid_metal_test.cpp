@@ -130,6 +130,32 @@ TEST(SolidMetal, AffineFlowStrainsNoHourglass) {
   EXPECT_LT(energies.hourglass, 1e-20 * energies.plastic);
 }
 
+/// Plastic strain keeps the volume, and on a path of one direction its size is the equivalent plastic strain; a turn turns it.
+TEST(SolidMetal, PlasticStrainIsATensorWithoutTrace) {
+  const Eigen::Matrix3d turn = rotation(0.7, {1, 2, 3});
+  for (const std::string type : {"C3D8R", "C3D8"}) {
+    SolidCase c = flowed(metal(type), {}, squeeze, 0.0, 200);
+    std::array<double, 6> still, turned, strain;
+    std::array<double, 1> equivalent;
+    const auto ask = [&](const char* variable, std::span<double> values) {
+      ASSERT_EQ(c.group->output_components(variable), static_cast<int>(values.size()));
+      c.group->output(variable, 0, 0, {c.position.data()}, c.element_history(0), values);
+    };
+    ask("PE", still);
+    ask("PEEQ", equivalent);
+    ask("LE", strain);
+    EXPECT_NEAR(still[0] + still[1] + still[2], 0.0, 1e-12);
+    EXPECT_NEAR(std::sqrt((2.0 / 3.0) * (still[0] * still[0] + still[1] * still[1] + still[2] * still[2])), equivalent[0], 0.01 * equivalent[0]);
+    EXPECT_NEAR(still[2], strain[2], 0.01);
+    c.move(affine(turn * squeeze));
+    ask("PE", turned);
+    Eigen::Matrix3d expected = turn * Eigen::Vector3d(still[0], still[1], still[2]).asDiagonal() * turn.transpose();
+    EXPECT_NEAR(turned[0], expected(0, 0), 1e-12);
+    EXPECT_NEAR(turned[3], 2.0 * expected(0, 1), 1e-12);
+    EXPECT_NEAR(turned[5], 2.0 * expected(1, 2), 1e-12);
+  }
+}
+
 /// The tangent holds for increments in which the centre flows: the error of a central difference falls with the square of its step.
 TEST(SolidMetal, TangentIsTheDerivativeOfTheForce) {
   SolidCase c = flowed(metal("C3D8R"), skewed(0.1), squeeze, 0.05, 50);
