@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "elements/element_type.hpp"
+#include "materials/material_option.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -58,6 +59,7 @@ Status::Status(const std::string& status_path, const std::string& log_path, cons
   for (const ElementTable& table : model.elements) {
     if (table.type->make_group != nullptr) element_count_ += table.size();
   }
+  for (const Material& material : model.materials) can_fail_ |= find_option(material, "shear-failure") != nullptr;
   const std::string title = model.heading.empty() ? model.name : fmt::format("{}: {}", model.name, model.heading);
   line(status_, restarted ? "Restarted" : "Balocco " BALOCCO_VERSION ", " + title);
 }
@@ -90,7 +92,8 @@ void Status::start_step(std::int32_t step, const State& state) {
   } else {
     line(status_, fmt::format("{:>9} {:>13} {:>13} {:>12} {:>10} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>9} {:>11} {:>9} {:>9} {:>10}",
                               "INC", "STEP TIME", "TOTAL TIME", "TIME INC", "ELEMENT", "ALLKE", "ALLIE", "ALLAE", "ALLCW", "ALLWK",
-                              "ETOTAL", "ERROR %", "PENETRATION", "WALL S", "LEFT S", "ELEM/S"));
+                              "ETOTAL", "ERROR %", "PENETRATION", "WALL S", "LEFT S", "ELEM/S") +
+                      (can_fail_ ? fmt::format(" {:>9}", "DELETED") : ""));
   }
 }
 
@@ -121,7 +124,11 @@ void Status::explicit_line(const Progress& progress, const State& state, const E
                             progress.increment, progress.step_time, progress.total_time, progress.time_increment,
                             progress.critical_element, energies.kinetic, energies.internal, energies.hourglass, energies.contact,
                             energies.work, energies.total, energy_error(state, energies), progress.largest_penetration, seconds(),
-                            view.remaining, view.elements_per_second));
+                            view.remaining, view.elements_per_second) +
+                    (can_fail_ ? fmt::format(" {:>9}", progress.deleted_elements) : ""));
+  if (progress.deleted_elements == deleted_elements_) return;
+  deleted_elements_ = progress.deleted_elements;
+  log(fmt::format("{} elements deleted until increment {}, time {:.6g}", deleted_elements_, progress.increment, progress.total_time));
 }
 
 void Status::show(const Progress& progress, bool now) {

@@ -46,6 +46,8 @@ class Status {
   std::FILE* log_ = nullptr;
   std::chrono::steady_clock::time_point begin_;
   std::int64_t element_count_ = 0;
+  bool can_fail_ = false;              // a material has *SHEAR FAILURE: one more column
+  std::int64_t deleted_elements_ = 0;  // told in .log
 
   std::int32_t step_ = 0;
   double step_begin_seconds_ = 0.0, step_begin_time_ = 0.0;

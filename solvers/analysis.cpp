@@ -7,6 +7,7 @@
 
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
+#include "elements/failure.hpp"
 #include "explicit_scale.hpp"
 #include "loads/body_load.hpp"
 #include "model/diagnostics.hpp"
@@ -302,9 +303,11 @@ void Analysis::index_rigid_nodes() {
 }
 
 /// An element all whose nodes move, and turn if they do, with one rigid body cannot strain: it rests. One that holds a single node
-/// strains against the ground. What is out of the model rests too.
+/// strains against the ground. What is out of the model or has failed rests too.
 void Analysis::find_acting_elements() {
-  for (const auto& group : element_groups) {
+  const ElementFailures failures(element_groups);
+  for (std::size_t index = 0; index < element_groups.size(); ++index) {
+    const auto& group = element_groups[index];
     const bool turns = group->freedoms_per_node() > 3;
     const auto body_of = [&](std::int32_t node) {
       if (turns) return turning_body_[node];
@@ -316,7 +319,7 @@ void Analysis::find_acting_elements() {
       const auto body = body_of(nodes[0]);
       const bool strains = body < 0 || nodes.size() == 1 ||
                            !std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return body_of(node) == body; });
-      acting[element] = strains && takes_part(*group, element);
+      acting[element] = strains && takes_part(*group, element) && !failures.failed(index, element, current.element_history[index]);
     }
     group->set_acting(std::move(acting));
   }

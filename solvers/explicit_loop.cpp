@@ -17,6 +17,7 @@ void compute_forces(ExplicitStep& cycle) {
   cycle.add_interface_elements();
   cycle.begin_halo();
   cycle.add_interior_elements();
+  cycle.rest_failed_elements();
   cycle.add_soft_contact();
   cycle.finish_halo();
 }
@@ -53,6 +54,7 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
     cycle.update_velocities();
     if (!cycle.observe()) return Outcome::stopped;
   }
+  cycle.log_deleted_elements();
   cycle.log_timers();
   return Outcome::finished;
 }

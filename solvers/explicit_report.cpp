@@ -41,6 +41,7 @@ Progress ExplicitStep::progress() const {
   progress.time_increment = last_increment_;
   progress.critical_element = governing.payload;
   progress.largest_penetration = contact_.largest_penetration(analysis_);
+  progress.deleted_elements = analysis_.communicator.sum(failures_.count(analysis_.current.element_history));
   progress.step_finished = finished();
   return progress;
 }
@@ -129,8 +130,15 @@ void ExplicitStep::log_resting_elements() const {
   all = analysis_.communicator.sum(all);
   acting = analysis_.communicator.sum(acting);
   if (acting == all) return;
-  observer_.log(fmt::format("step {}: {} of {} elements move with rigid bodies: they are not computed and bound no increment",
+  observer_.log(fmt::format("step {}: {} of {} elements move with rigid bodies or are out: they are not computed and bound no increment",
                             step_.name, all - acting, all));
+}
+
+void ExplicitStep::log_deleted_elements() const {
+  const std::int64_t deleted = analysis_.communicator.sum(failures_.count(analysis_.current.element_history));
+  if (deleted == 0) return;
+  observer_.log(fmt::format("step {}: {} elements have failed and are deleted (*SHEAR FAILURE); their mass stays at the nodes",
+                            step_.name, deleted));
 }
 
 void ExplicitStep::log_timers() const {

@@ -57,6 +57,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       observer_(observer),
       total_time_at_start_(time_before(analysis.model, analysis.current.step)),
       bodies_(analysis, step),
+      failures_(analysis.element_groups),
       restraints_(nodal_restraints(analysis)),
       restraint_bound_(restraint_bound(analysis, restraints_, bodies_)),
       scale_(force_scale(analysis, step, restraints_, restraint_bound_)),
@@ -229,6 +230,13 @@ void ExplicitStep::begin_halo() {
 
 void ExplicitStep::add_interior_elements() {
   timers.measure(Phase::elements, [&] { add_elements(Portion::interior); });
+}
+
+void ExplicitStep::rest_failed_elements() {
+  timers.measure(Phase::elements, [&] {
+    for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index)
+      failures_.rest(index, analysis_.current.element_history[index]);
+  });
 }
 
 void ExplicitStep::add_soft_contact() {

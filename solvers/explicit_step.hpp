@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "elements/failure.hpp"
 #include "explicit_bodies.hpp"
 #include "explicit_contact.hpp"
 #include "explicit_gyroscopic.hpp"
@@ -38,6 +39,8 @@ class ExplicitStep {
   void add_interface_elements();
   void begin_halo();
   void add_interior_elements();
+  /// Elements that failed in this cycle have no force from the next on.
+  void rest_failed_elements();
   void add_soft_contact();
   void finish_halo();
   void add_damping();
@@ -55,6 +58,8 @@ class ExplicitStep {
   void fill_output();
   /// What later energies are compared with.
   void start_energy_balance();
+  /// Collective.
+  void log_deleted_elements() const;
   void log_timers() const;
 
   PhaseTimers timers;
@@ -92,6 +97,7 @@ class ExplicitStep {
   Observer& observer_;
   double total_time_at_start_ = 0.0;  // of the step
   RigidDynamics bodies_;
+  ElementFailures failures_;
   NodalRestraints restraints_;
   RestraintBound restraint_bound_;
   ForceScale scale_;

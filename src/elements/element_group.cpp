@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elements/element_type.hpp"
+#include "elements/failure.hpp"
 #include "math/pack.hpp"
 
 namespace balocco {
@@ -142,12 +143,15 @@ void ElementGroup::energies(std::int32_t first, const NodalMotion& motion, std::
 Restraint ElementGroup::restraint(std::int32_t) const { return {}; }
 
 int ElementGroup::output_components(std::string_view variable) const {
+  if (variable == "STATUS") return 1;
   return whole_element_energy(variable) != nullptr ? 1 : point_components(variable);
 }
 
 void ElementGroup::output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                           std::span<const double> history, std::span<double> values) const {
-  if (const auto energy = whole_element_energy(variable); energy != nullptr) {
+  if (variable == "STATUS") {
+    values[0] = has_failed(failure_rows(*this), history) ? 0.0 : 1.0;
+  } else if (const auto energy = whole_element_energy(variable); energy != nullptr) {
     values[0] = energies(element, motion, history).*energy;
   } else {
     point_output(variable, element, integration_point, motion, history, values);

@@ -37,7 +37,7 @@ const RegisterLaw registered(
      .parameters = {{"young", 0.0, unbounded, "Young's modulus, force/area"},
                     {"poisson", -1.0, 0.5, "Poisson's ratio"}},
      .options = {"plastic", "plastic-kinematic", "plastic-combined", "plastic-johnson-cook", "cyclic-hardening",
-                 "rate-power-law", "rate-johnson-cook", "prony"},
+                 "rate-power-law", "rate-johnson-cook", "shear-failure", "prony"},
      .solid = form<PointKind::solid>,
      .plane = form<PointKind::plane>,
      .line = form<PointKind::line>,

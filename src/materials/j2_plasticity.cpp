@@ -56,6 +56,13 @@ const RegisterOption cyclic({.name = "cyclic-hardening",
                                          {"Q", -unbounded, unbounded, "change of the yield stress in the end, force/area"},
                                          {"b", 0.0, unbounded, "how fast: yield + Q (1 - exp(-b strain))"}}});
 
+const RegisterOption shear_failure({.name = "shear-failure",
+                                    .keyword = "SHEAR FAILURE",
+                                    .selector = "ELEMENT DELETION",
+                                    .variant = "YES",
+                                    .is_default = true,
+                                    .columns = {{"plastic strain", 0.0, unbounded, "equivalent plastic strain at failure"}}});
+
 void add_back_stresses(const MaterialOption& option, J2Plasticity& law) {
   const auto& row = option.rows[0];
   if (option.name == "plastic-kinematic") {
@@ -79,8 +86,9 @@ bool J2Plasticity::wanted(const Material& material) {
 
 J2Plasticity J2Plasticity::of(const Material& material) {
   const double young = material.parameters[0], poisson = material.parameters[1];
-  J2Plasticity law{young / (3.0 * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)), FlowStress::of(material), {}};
+  J2Plasticity law{young / (3.0 * (1.0 - 2.0 * poisson)), young / (2.0 * (1.0 + poisson)), FlowStress::of(material), {}, 0.0};
   for (const auto& option : material.options) add_back_stresses(option, law);
+  if (const auto* failure = find_option(material, "shear-failure"); failure != nullptr) law.failure_strain = failure->rows[0][0];
   if (const auto* cyclic = find_option(material, "cyclic-hardening"); cyclic != nullptr) {
     const auto* combined = find_option(material, "plastic-combined");
     if (combined == nullptr) throw InputError("*CYCLIC HARDENING: it belongs to *PLASTIC, HARDENING=COMBINED; add that");

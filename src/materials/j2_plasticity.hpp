@@ -35,6 +35,7 @@ struct J2Plasticity {
   double bulk, shear;
   FlowStress flow;
   std::vector<BackStress> back_stresses;
+  double failure_strain = 0.0;  // *SHEAR FAILURE: PEEQ after which a point carries nothing; 0: none
 
   /// @throws InputError if the options of the material do not fit together
   static J2Plasticity of(const Material& material);
@@ -46,6 +47,7 @@ struct J2Plasticity {
     Matrix3<T> plastic{};  // Fp^-1 - I
     T equivalent_plastic_strain = T(0.0), dissipation = T(0.0);
     std::array<SymmetricTensor<T>, most_back_stresses> back_stress{};
+    T failed = T(0.0);  // 1 from the end of the increment on in which the plastic strain of failure was reached
   };
   template <class S, class Visit>
   void fields(S& state, Visit&& visit) const {
@@ -53,10 +55,37 @@ struct J2Plasticity {
     visit("PEEQ", state.equivalent_plastic_strain);
     visit("PLASTIC DISSIPATION", state.dissipation);
     for (std::size_t i = 0; i < back_stresses.size(); ++i) visit("ALPHA", state.back_stress[i].component);
+    if (failure_strain > 0.0) visit("FAILED", state.failed);
   }
 
   template <class T>
   Matrix3<T> stress(const Matrix3<T>& f, State<T>& state, double increment) const {
+    if (!(failure_strain > 0.0)) return intact_stress(f, state, increment);
+    const State<T> old = state;
+    const Matrix3<T> carried = intact_stress(f, state, increment);
+    return fail(f, old, carried, state);
+  }
+
+  /// With tau = P F^T, l = dF F^-1, x = largest difference of elastic principal strains:
+  ///   d2W <= lambda (tr l)^2 + 2 mu (x coth x) |sym l|^2 + 3 |tau| |l|^2,  x coth x <= 1 + x^2 / 3 <= 1 + |tau / mu|^2 / 6,
+  /// |l| <= |F^-1|_2 |dF|. Plastic flow only lowers it.
+  template <class T>
+  TangentBound<T> bound(const Matrix3<T>& f, const Matrix3<T>& piola) const {
+    const Invariants<T> c = invariants(f);
+    const T inverse_square = 1.0 / (c.jacobian * c.jacobian);
+    const T n2 = largest_eigenvalue_bound(c.second * inverse_square, c.first * inverse_square);
+    const T stress_square = double_contraction(piola, piola) * largest_eigenvalue_bound(c.first, c.second);
+    const T x = (1.0 / (6.0 * shear * shear)) * stress_square;
+    return {T(maximum(bulk - (2.0 / 3.0) * shear, 0.0)), n2 * (shear * (1.0 + x) + 1.5 * square_root(stress_square))};
+  }
+
+  EnergyDensity energy(const Matrix3<double>& f, const State<double>& state) const {
+    return {state.failed > 0.0 ? 0.0 : elastic_energy(f, state.plastic), state.dissipation, 0.0};
+  }
+
+ private:
+  template <class T>
+  Matrix3<T> intact_stress(const Matrix3<T>& f, State<T>& state, double increment) const {
     const Elastic<T> elastic = elastic_strain(f, state.plastic);
     const T volume = trace(elastic.strain);
     SymmetricTensor<T> deviator = T(2.0 * shear) * elastic.strain.plus_identity((-1.0 / 3.0) * volume);
@@ -78,27 +107,37 @@ struct J2Plasticity {
     return left + left * elastic.trial_plastic_transposed;
   }
 
-  /// With tau = P F^T, l = dF F^-1, x = largest difference of elastic principal strains:
-  ///   d2W <= lambda (tr l)^2 + 2 mu (x coth x) |sym l|^2 + 3 |tau| |l|^2,  x coth x <= 1 + x^2 / 3 <= 1 + |tau / mu|^2 / 6,
-  /// |l| <= |F^-1|_2 |dF|. Plastic flow only lowers it.
+  /// Points that had failed before carry nothing and stay as they were; those that fail now give up their elastic energy.
   template <class T>
-  TangentBound<T> bound(const Matrix3<T>& f, const Matrix3<T>& piola) const {
-    const Invariants<T> c = invariants(f);
-    const T inverse_square = 1.0 / (c.jacobian * c.jacobian);
-    const T n2 = largest_eigenvalue_bound(c.second * inverse_square, c.first * inverse_square);
-    const T stress_square = double_contraction(piola, piola) * largest_eigenvalue_bound(c.first, c.second);
-    const T x = (1.0 / (6.0 * shear * shear)) * stress_square;
-    return {T(maximum(bulk - (2.0 / 3.0) * shear, 0.0)), n2 * (shear * (1.0 + x) + 1.5 * square_root(stress_square))};
+  Matrix3<T> fail(const Matrix3<T>& f, const State<T>& old, const Matrix3<T>& carried, State<T>& state) const {
+    const auto gone = value_of(old.failed) > 0.0;
+    Matrix3<T> stress;
+    for (int i = 0; i < 9; ++i) {
+      stress.component[i] = select(gone, T(0.0), carried.component[i]);
+      state.plastic.component[i] = select(gone, old.plastic.component[i], state.plastic.component[i]);
+    }
+    for (std::size_t i = 0; i < back_stresses.size(); ++i)
+      for (int k = 0; k < 6; ++k)
+        state.back_stress[i].component[k] = select(gone, old.back_stress[i].component[k], state.back_stress[i].component[k]);
+    state.equivalent_plastic_strain = select(gone, old.equivalent_plastic_strain, state.equivalent_plastic_strain);
+    const auto fails = value_of(state.equivalent_plastic_strain) >= failure_strain;
+    if (any(fails)) {
+      const T lost = select(fails, T(elastic_energy(f, state.plastic)), T(0.0));
+      state.dissipation = state.dissipation + lost;
+    }
+    state.dissipation = select(gone, old.dissipation, state.dissipation);
+    state.failed = select(fails, T(1.0), old.failed);
+    return stress;
   }
 
-  EnergyDensity energy(const Matrix3<double>& f, const State<double>& state) const {
-    const auto strain = elastic_strain(f, state.plastic).strain;
-    const double volume = trace(strain);
-    const auto deviator = strain.plus_identity(-volume / 3.0);
-    return {0.5 * bulk * volume * volume + shear * double_contraction(deviator, deviator), state.dissipation, 0.0};
+  template <class T>
+  T elastic_energy(const Matrix3<T>& f, const Matrix3<T>& plastic) const {
+    const auto strain = elastic_strain(f, plastic).strain;
+    const T volume = trace(strain);
+    const auto deviator = strain.plus_identity((-1.0 / 3.0) * volume);
+    return 0.5 * bulk * volume * volume + shear * double_contraction(deviator, deviator);
   }
 
- private:
   template <class T>
   struct Elastic {
     Matrix3<T> gradient, trial_plastic_transposed;  // Fe, (Fp^-1 - I)^T

@@ -11,6 +11,7 @@
 #include "elements/solids/solid_jacobian.hpp"
 #include "loads/body_load.hpp"
 #include "materials/material_option.hpp"
+#include "model/check_failure.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -35,6 +36,7 @@ class Checker {
     check_initial_fields();
     find_idle_nodes();
     for (const auto& step : model_.steps) check_step(step);
+    for (const auto& [location, text] : check_failure(model_)) error(location, text);
     return std::move(found_);
   }
 

@@ -72,6 +72,7 @@ struct Progress {
   int iterations = 0;                  // Newton iterations of the increment (implicit)
   double largest_residual = 0.0;       // at convergence (implicit)
   double largest_penetration = 0.0;    // of all active contact pairs (explicit)
+  std::int64_t deleted_elements = 0;   // by *SHEAR FAILURE, since the analysis began (explicit)
   bool step_finished = false;
 };
 

@@ -5,6 +5,7 @@
 
 #include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
+#include "elements/failure.hpp"
 #include "elements/history_pack.hpp"
 #include "elements/nodal_packs.hpp"
 #include "math/rotation.hpp"
@@ -39,6 +40,7 @@ ShellGroup<corners, points>::ShellGroup(const GroupInput& input)
       nodal_volume_(static_cast<std::size_t>(padded_size_) * corners),
       nodal_inertia_(nodal_volume_.size()),
       plate_inertia_(nodal_volume_.size()) {
+  failed_rows_ = failure_rows(*this);
   const Section& section = input.model.sections[input.section];
   const ElementTable& elements = input.model.elements[table_];
   std::vector<double> stiffness(36 * corners * corners);

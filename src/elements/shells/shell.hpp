@@ -2,6 +2,7 @@
 // membrane strain and rotation, transverse shear, sections integrated through the thickness.
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "elements/aligned_vector.hpp"
@@ -38,6 +39,7 @@ class ShellGroup final : public ElementGroup, public MaterialRotaryInertia {
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override;
   int integration_points() const override { return points * layers(); }
+  int law_field_row(std::string_view field, int integration_point) const override;
   std::size_t bytes_per_element() const override;
 
  private:
@@ -96,7 +98,13 @@ class ShellGroup final : public ElementGroup, public MaterialRotaryInertia {
   void begin(int pack, Block& block, const ExplicitCycle& cycle) const;
   void finish(Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
 
+  /// Whether all points and layers of an element with that history have failed (*SHEAR FAILURE).
+  bool failed(std::span<const double> history) const {
+    return !failed_rows_.empty() && std::ranges::all_of(failed_rows_, [&](int row) { return history[row] > 0.0; });
+  }
+
   ShellSection section_;
+  std::vector<int> failed_rows_;                    // components of history that say so
   AlignedVector<double> record_;                    // Record::size packs per pack of elements
   std::vector<double> nodal_volume_, nodal_inertia_, plate_inertia_;  // of each corner of each element; the last not raised
 };

@@ -5,6 +5,7 @@
 #include "elements/membranes/membrane_output.hpp"
 #include "elements/plastic_strain.hpp"
 #include "elements/shells/shell.hpp"
+#include "materials/initial_stress.hpp"
 
 namespace balocco {
 
@@ -75,6 +76,14 @@ std::array<double, 2> middle_shear(const double* record, const std::array<double
 }
 
 }  // namespace
+
+template <int corners, int points>
+int ShellGroup<corners, points>::law_field_row(std::string_view field, int integration_point) const {
+  if (section_.layers.empty()) return -1;
+  const ShellLayer& layer = section_.layers[integration_point % layers()];
+  const int row = field_row(*section_.plies[layer.ply].law, field);
+  return row < 0 ? row : integration_point / layers() * section_.history_size + layer.history + row;
+}
 
 template <int corners, int points>
 int ShellGroup<corners, points>::point_components(std::string_view variable) const {

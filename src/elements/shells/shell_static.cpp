@@ -212,11 +212,12 @@ ElementEnergies ShellGroup<corners, points>::energies(std::int32_t element, cons
   kernel.add_elastic(strain, elastic);
   add_hourglass<double>(data, strain, hourglass);
   ElementEnergies result;
-  for (int i = 0; i < corners; ++i) {
+  const bool gone = failed(history);
+  for (int i = 0; i < corners && !gone; ++i) {
     result.strain += 0.5 * elastic.shear[i] * strain.shear[i];
     result.hourglass += 0.5 * elastic.drill[i] * strain.drill[i];
   }
-  for (int a = 0; a < Record::Layout::modes; ++a)
+  for (int a = 0; a < Record::Layout::modes && !gone; ++a)
     result.hourglass += 0.5 * (hourglass.membrane_mode[a] * strain.membrane_mode[a] +
                                hourglass.bending_mode[a] * strain.bending_mode[a]);
   for (int q = 0; q < points; ++q) {

@@ -35,6 +35,7 @@ HourglassFlow HourglassFlow::of(const SolidMaterial& material, const Section& se
   if (strain < 0 || section.hourglass != HourglassControl::enhanced) return flow;
   flow.plastic_strain = own_history + history_size + strain;
   flow.plastic_deformation = own_history + history_size + field_row(*material.law, "FP");
+  if (const int failure = field_row(*material.law, "FAILED"); failure >= 0) flow.failure = own_history + history_size + failure;
   const double lame = material.stiffness[1], shear = material.stiffness[21];
   flow.shear = shear;
   flow.twice_shear = section.hourglass_scale * 2.0 * shear;
@@ -133,7 +134,10 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
       Pack(component(own_history + k) + by).copy_to(&history[(own_history + k) * padded_size_ + element], std::experimental::element_aligned);
     };
     for (int k = 0; k < 12; ++k) advance(k, change[k]);
-    advance(12, flow_dissipation(factor, hourglass_strains(c, q), shape));
+    const auto strain = hourglass_strains(c, q);
+    advance(12, flow_dissipation(factor, strain, shape));
+    if (flow_.failure >= 0)  // what fails gives up its elastic energy
+      advance(12, select(component(flow_.failure) > 0.0, hourglass_energy(strain, shape), Pack(0.0)));
   }
   const Pack rate = volume_rate(invariant.jacobian, old_jacobian, inverse_increment);
   const Pack mean_stress = viscosity.stress(length, rate);

@@ -66,7 +66,8 @@ class ReducedBrick final : public ElementGroup {
   T artificial_energy(const HexahedronCoefficients<T>& c, const Matrix3<T>& f, const Reference& reference, const auto& history) const {
     if (!flow_.active()) return hourglass_energy(c, hourglass_vectors(c, f, reference), reference, enhanced_);
     const FlowedReference<T, Reference> shape(reference, flow_, own_history, history);
-    return hourglass_energy(hourglass_strains(c, hourglass_vectors(c, f, shape)), shape) + history(own_history + 12);
+    const T elastic = hourglass_energy(hourglass_strains(c, hourglass_vectors(c, f, shape)), shape), given_up = history(own_history + 12);
+    return given_up + (flow_.failure < 0 ? elastic : select(history(flow_.failure) > 0.0, T(0.0), elastic));
   }
 
   /// Force (and stiffness) of one element over any scalar: T = double or Dual<24>. `plastic` is the increment of PEEQ.

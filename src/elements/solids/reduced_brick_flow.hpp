@@ -20,6 +20,7 @@ struct HourglassFlow {
   static constexpr int history_size = 13;  // Q_1 .. Q_4, then the energy dissipated per element
   int plastic_strain = -1;                 // PEEQ; -1: nothing yields
   int plastic_deformation = -1;            // Fp^-1 - 1
+  int failure = -1;                        // FAILED; -1: nothing fails
   double shear = 0.0;                      // modulus G of the centre's return
   double twice_shear = 0.0, plane_ratio = 0.0, young = 0.0;  // 2 G, nu / (1 - nu) and E of the hourglass, with its scale
 
