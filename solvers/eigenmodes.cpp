@@ -119,7 +119,11 @@ std::vector<EigenPair> Eigenmodes::search(const EigenRange& range) {
   const int below_wanted = range.lowest < range.shift ? below : 0;
   for (int asked = std::min<PetscInt>(range.number + below_wanted, equations);; asked = std::min<PetscInt>(2 * asked, equations)) {
     auto pairs = nearest(range.shift, asked);
-    const auto found_below = std::ranges::count_if(pairs, [&](const auto& pair) { return pair.value < range.shift; });
+    auto found_below = std::ranges::count_if(pairs, [&](const auto& pair) { return pair.value < range.shift; });
+    if (found_below > below) {  // the farthest are infinite but for rounding: directions without mass
+      pairs.erase(pairs.begin(), pairs.begin() + (found_below - below));
+      found_below = below;
+    }
     const bool past_lowest = !pairs.empty() && pairs.front().value < range.lowest;
     const bool past_highest = !pairs.empty() && pairs.back().value > range.highest;
     std::erase_if(pairs, [&](const auto& pair) { return pair.value < range.lowest || pair.value > range.highest; });

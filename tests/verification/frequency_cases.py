@@ -202,6 +202,24 @@ def strip_bent(runner):
         close(found, formula, 1e-2, "mode %d" % k)
 
 
+def strip_buckled(runner):
+    """The strip between two supports, pressed by 2.5 of its Euler loads: one mode grows, omega^2 = (k pi / L)^2 (D (k pi / L)^2 - N)
+    / rho h, k = 1; those that drilling without inertia adds, infinite but for rounding, are not among the modes."""
+    count, length, thickness = 32, 16.0, 0.1
+    deck = strip(count, length, 1.0, thickness, "NALL, 2, 2\nNALL, 4, 4\nENDS, 3, 3\nROOT, 1, 1\n")
+    stiffness = YOUNG * thickness**3 / 12.0
+    press = 2.5 * stiffness * (math.pi / length) ** 2
+    ends = "".join("%d, 1, %.17g\n" % (node, -0.5 * press) for node in deck.sets["ENDS"][2:])
+    free = deck.text.pop().replace("*BOUNDARY", "*BOUNDARY, OP=NEW")
+    deck.add("*STEP, NLGEOM\n*STATIC\n*BOUNDARY\nNALL, 2, 5\nROOT, 1, 1\n*CLOAD\n" + ends + "*END STEP")
+    deck.add(free)
+    results = run_alike(runner, "strip_buckled", deck, 2)
+    found = [mode.attrs["eigenvalue"] for mode in modes(results, 2)]
+    for k, value in enumerate(found, 1):
+        wave = (k * math.pi / length) ** 2
+        close(value, wave * (stiffness * wave - press) / (DENSITY * thickness), 2e-2, "eigenvalue %d" % k)
+
+
 def shaft(runner):
     """Torsion of a round beam held at one end, its nodes with the polar inertia of the section, which is its torsion constant:
     f_k = sqrt(G / rho) / (h pi) sin((2k - 1) pi / 4n)."""
@@ -220,7 +238,8 @@ def shaft(runner):
         close(found, scale * math.sin((2 * k - 1) * math.pi / (4 * count)), 1e-9, "mode %d" % k)
 
 
-CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent, shaft)}
+CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent,
+                                                strip_buckled, shaft)}
 CASES["cantilever"] = cantilever_modes
 
 if __name__ == "__main__":
