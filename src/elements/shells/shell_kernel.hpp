@@ -3,15 +3,15 @@
 // A geometrically exact shell with one director a corner, d_I = R_I D_I (Simo & Fox, Comp. Meth. Appl. Mech. Eng. 72,
 // 1989), whose strains are as many as its modes of deformation, freedoms less rigid motions: 18 for quadrilaterals, 12
 // for triangles.
-//   membrane   E_ab = (F_a . F_b - 1) / 2 of the mean tangents F_a = sum B_aI x_I, with the mean of (q . q) (g (x) g) /
-//   2 curvature  K_ab = sym(F_a . D_b) - reference, D_a = sum B_aI d_I;  the strain of a layer is E + zeta K modes s_a
-//   = F_a . q and t_a = F_a . p + D_a . q, in-plane bending and bending of the quadrilateral's linear part:
+//   membrane   E_ab = (F_a . F_b - 1) / 2 of the mean tangents F_a = sum B_aI x_I, with the mean of (q . q) (g (x) g) / 2
+//   curvature  sym(K + K H C / 2) - reference: K_ab = sym(F_a . D_b), D_a = sum B_aI d_I, and C_ab = D_a . D_b, which makes the
+//              turn of the directors along an edge of the chord between their tips, 2 sin(turn / 2), with H_ab = sum of
+//              e_a e_b / 24 over the edges; the strain of a layer is E + zeta curvature
+//   modes      s_a = F_a . q and t_a = F_a . p + D_a . q, in-plane bending and bending of the quadrilateral's linear part:
 //              q = sum gamma_I x_I, p = sum gamma_I d_I, nothing for affine motions (Flanagan & Belytschko 1981)
-//   shear      c_i = e_i . (d_i + d_j) - reference along each edge e_i = x_j - x_i: the tying points of MITC4 (Dvorkin
-//   & Bathe,
+//   shear      c_i = e_i . (d_i + d_j) - reference along each edge e_i = x_j - x_i: the tying points of MITC4 (Dvorkin & Bathe,
 //              Eng. Comput. 1, 1984) and MITC3 (Lee & Bathe, Comput. Struct. 82, 2004)
-//   drill      w_I = (F_1 . R_I E_2 - F_2 . R_I E_1) / 2, rotation of the node beside the spin of the surface (Hughes &
-//   Brezzi 1989)
+//   drill      w_I = (F_1 . R_I E_2 - F_2 . R_I E_1) / 2, rotation of the node beside the spin of the surface (Hughes & Brezzi 1989)
 // All are products of vectors that turn with the element: rigid motions strain nothing. Nodes enter as edges x_I - x_0.
 #pragma once
 
@@ -37,7 +37,8 @@ struct ShellLayout {
   static constexpr int axes = director + 3 * corners;  // E_1, E_2
   static constexpr int curvature = axes + 6;           // 11, 22, 2x12
   static constexpr int bending_mode = curvature + 3;
-  static constexpr int shear = bending_mode + modes;
+  static constexpr int spread = bending_mode + modes;  // H: 11, 22, 12
+  static constexpr int shear = spread + 3;
   static constexpr int shear_stiffness = shear + corners;  // upper triangle, row by row
   static constexpr int drill_stiffness =
       shear_stiffness + corners * (corners + 1) / 2;  // of the mean, of what differs from it
@@ -89,15 +90,19 @@ class ShellKernel {
         turn_ = turn_ + scaled(value(Layout::gamma + i), turn);
       }
     }
+    curvature_ = {dot(tangent1_, bend1_), dot(tangent2_, bend2_),
+                  0.5 * (dot(tangent1_, bend2_) + dot(tangent2_, bend1_))};
+    bend_square_ = {dot(bend1_, bend1_), dot(bend2_, bend2_), dot(bend1_, bend2_)};
   }
 
   Modes strains() const {
     Modes strain;
     strain.membrane = {0.5 * (dot(tangent1_, tangent1_) - 1.0), 0.5 * (dot(tangent2_, tangent2_) - 1.0),
                        dot(tangent1_, tangent2_)};
-    strain.curvature = {dot(tangent1_, bend1_) - value(Layout::curvature),
-                        dot(tangent2_, bend2_) - value(Layout::curvature + 1),
-                        dot(tangent1_, bend2_) + dot(tangent2_, bend1_) - value(Layout::curvature + 2)};
+    const Square arc = times(times(as_square(curvature_), spread()), bend_square_);  // K H C
+    strain.curvature = {curvature_[0] + 0.5 * arc[0] - value(Layout::curvature),
+                        curvature_[1] + 0.5 * arc[3] - value(Layout::curvature + 1),
+                        2.0 * curvature_[2] + 0.5 * (arc[1] + arc[2]) - value(Layout::curvature + 2)};
     if constexpr (Layout::quadrilateral) {
       const T growth = dot(twist_, twist_) - value(Layout::mean_gg + 3);
       strain.membrane[0] = strain.membrane[0] + 0.5 * (value(Layout::mean_gg) * growth);
@@ -129,13 +134,20 @@ class ShellKernel {
   /// Adds the nodal forces that do the work of `stress`.
   void add_forces(const Modes& stress, Forces& nodal) const {
     const auto& n = stress.membrane;
-    const auto& m = stress.curvature;
+    // M on the curvature does work on K, M + sym(M C H) / 2, and on C, sym(M K H) / 2.
+    const Square on_curvature = times(times(as_square(stress.curvature), bend_square_), spread());
+    const Square on_square = times(times(as_square(stress.curvature), curvature_), spread());
+    const Symmetric m{stress.curvature[0] + 0.5 * on_curvature[0], stress.curvature[1] + 0.5 * on_curvature[3],
+                             stress.curvature[2] + 0.25 * (on_curvature[1] + on_curvature[2])};
+    const T on_both = 0.5 * (on_square[1] + on_square[2]);
     Vector3<T> on_tangent1 =
         scaled(n[0], tangent1_) + scaled(n[2], tangent2_) + scaled(m[0], bend1_) + scaled(m[2], bend2_);
     Vector3<T> on_tangent2 =
         scaled(n[2], tangent1_) + scaled(n[1], tangent2_) + scaled(m[2], bend1_) + scaled(m[1], bend2_);
-    Vector3<T> on_bend1 = scaled(m[0], tangent1_) + scaled(m[2], tangent2_);
-    Vector3<T> on_bend2 = scaled(m[2], tangent1_) + scaled(m[1], tangent2_);
+    Vector3<T> on_bend1 =
+        scaled(m[0], tangent1_) + scaled(m[2], tangent2_) + scaled(on_square[0], bend1_) + scaled(on_both, bend2_);
+    Vector3<T> on_bend2 =
+        scaled(m[2], tangent1_) + scaled(m[1], tangent2_) + scaled(on_both, bend1_) + scaled(on_square[3], bend2_);
     Vector3<T> on_twist, on_turn;
     if constexpr (Layout::quadrilateral) {
       const auto &s = stress.membrane_mode, &t = stress.bending_mode;
@@ -195,6 +207,18 @@ class ShellKernel {
   }
 
  private:
+  using Symmetric = std::array<T, 3>;  // 11, 22, 12
+  using Square = std::array<T, 4>;     // 11, 12, 21, 22
+
+  static Square as_square(const Symmetric& a) { return {a[0], a[2], a[2], a[1]}; }
+  template <class Entry>
+  static Square times(const Square& a, const std::array<Entry, 3>& b) {
+    return {a[0] * b[0] + a[1] * b[2], a[0] * b[2] + a[1] * b[1], a[2] * b[0] + a[3] * b[2], a[2] * b[2] + a[3] * b[1]};
+  }
+  std::array<Coefficient<T>, 3> spread() const {
+    return {value(Layout::spread), value(Layout::spread + 1), value(Layout::spread + 2)};
+  }
+
   static constexpr int next(int i) { return i + 1 == corners ? 0 : i + 1; }
   Coefficient<T> value(int component) const { return reference_value<T>(reference_, component); }
   Vector3<Coefficient<T>> vector(int component) const {
@@ -214,6 +238,7 @@ class ShellKernel {
   Edges edge_;
   std::array<Vector3<T>, corners> director_, axis1_, axis2_;
   Vector3<T> tangent1_, tangent2_, bend1_, bend2_, twist_, turn_;
+  Symmetric curvature_, bend_square_;  // K and C
 };
 
 }  // namespace balocco

@@ -67,6 +67,15 @@ void fill_kernel_geometry(const ShellGeometry& geometry, double* record) {
     for (int i = 0; i < 3; ++i) put(record, Layout::mean_gg + i, gg[i]);
     put(record, Layout::mean_gg + 3, geometry.warp * geometry.warp);
   }
+  double spread[3] = {};
+  for (int i = 0; i < corners; ++i) {
+    const Vector3<double> side = geometry.edge[(i + 1) % corners] - geometry.edge[i];
+    const double along1 = dot(side, geometry.direction1), along2 = dot(side, geometry.direction2);
+    spread[0] += along1 * along1 / 24.0;
+    spread[1] += along2 * along2 / 24.0;
+    spread[2] += along1 * along2 / 24.0;
+  }
+  for (int i = 0; i < 3; ++i) put(record, Layout::spread + i, spread[i]);
   // What the strains start from is what they measure at rest.
   ShellKernel<double, corners> kernel;
   typename ShellKernel<double, corners>::Edges edge;
@@ -158,6 +167,7 @@ void fill_shell_reference(const ShellGeometry& geometry, const ShellSection& sec
                           const ShellHourglassOptions& hourglass, double* record) {
   using Record = ShellRecord<corners, points>;
   const double mean = std::accumulate(thickness.begin(), thickness.end(), 0.0) / corners;
+  for (int component = 0; component < Record::size; ++component) put(record, component, 0.0);
   fill_kernel_geometry<corners>(geometry, record);
   fill_elastic<corners>(geometry, section, mean, record);
   if constexpr (Record::one_point_quadrilateral)
