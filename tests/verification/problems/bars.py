@@ -9,6 +9,9 @@ TRAPEZOIDS = ("a 4-node membrane or brick that passes the patch test is stiff in
               "MacNeal, Int. J. Numer. Meth. Eng. 24 (1987)")
 WARPING = ("one layer of bricks warps bilinearly: J = b^3 h^3 / 3 (b^2 + h^2), 16 % above St. Venant's; the target itself counts "
            "the held root, 6 % of it")
+TRIANGLE = "the membrane of the triangle has constant strain and locks in bending in its plane: 48 x 8 of them still hold back %s"
+LAYER = "one layer of bricks without a shear strain that varies over it; 24 x 4 reach the target"
+SHEARED = "twist of a section twice as broad as thick is transverse shear near its edges, constant in a triangle: 48 x 8 give -5 %"
 BBAR = "the 2x2x2 brick without incompatible modes is stiff in bending (shear locking); finer meshes converge"
 
 
@@ -107,7 +110,8 @@ def twist(session, name, mesh):
 
 STRAIGHT = {"extension": (3e-5, 0.02), "in plane": (0.1081, 0.03), "out of plane": (0.4321, 0.03), "twist": (0.03208, 0.08)}
 straight("rectangle", STRAIGHT, BAR_ELEMENTS, {
-    ("C3D8", "in plane"): BBAR, ("C3D8", "out of plane"): BBAR, ("C3D8", "twist"): WARPING, ("C3D8R", "twist"): WARPING}, {"C3D8R": 0.1})
+    ("C3D8", "in plane"): BBAR, ("C3D8", "out of plane"): BBAR, ("C3D8", "twist"): WARPING, ("C3D8R", "twist"): WARPING,
+    ("S3R", "in plane"): TRIANGLE % "32 %", ("S3R", "twist"): SHEARED}, {"C3D8R": 0.1})
 for distorted in ("trapezoid", "parallelogram"):
     straight(distorted, STRAIGHT, BAR_ELEMENTS[:-1], {
         kind: TRAPEZOIDS for kind in ("C3D8", "C3D8R", "S4", "S4R", "S3R")}, {})
@@ -115,7 +119,9 @@ for distorted in ("trapezoid", "parallelogram"):
 
 @problem("MH-curved", "quarter arc 4.12 to 4.32, thickness 0.1, unit loads on the end", "MacNeal & Harder 1985; Altair OS-V 0710",
          {"in plane": (0.08734, 0.05), "out of plane": (0.5022, 0.05)}, {kind: (6, 12) for kind in BAR_ELEMENTS},
-         lambda n: "%d x %d" % (n, max(1, n // 6)), {}, {"C3D8": BBAR})
+         lambda n: "%d x %d" % (n, max(1, n // 6)), {},
+         {"C3D8": BBAR, ("C3D8R", "out of plane"): LAYER, ("S3R", "in plane"): TRIANGLE % "36 %",
+          ("S3R", "out of plane"): "bends and twists: " + SHEARED.replace("-5", "-4")})
 def curved(session, kind, n):
     def place(r, s):
         radius, turned = 4.32 - 0.2 * s, 0.5 * math.pi * r
@@ -131,7 +137,7 @@ def curved(session, kind, n):
 @problem("MH-twist", "cantilever 12 x 1.1 x 0.32 twisted by 90 degrees, unit loads on the end",
          "MacNeal & Harder 1985; Zupan & Saje: 0.001753248, 0.005424535",
          {"along the root's breadth": (0.001754, 0.02), "across it": (0.005424, 0.02)}, {kind: (12, 24) for kind in BAR_ELEMENTS},
-         lambda n: "%d x %d" % (n, n // 6), {"C3D8R": 0.05}, {"C3D8": BBAR})
+         lambda n: "%d x %d" % (n, n // 6), {"C3D8R": 0.05}, {"C3D8": BBAR, ("S3R", "along the root's breadth"): TRIANGLE % "2 %"})
 def twisted(session, kind, n):
     def place(r, s):
         turned, across = 0.5 * math.pi * r, 1.1 * (s - 0.5)
