@@ -35,6 +35,7 @@ TangentBound<T> quadratic_energy_bound(const Invariants<T>& c, double lambda, do
 }
 
 struct IsotropicElastic {
+  static constexpr bool compiled_whole = true;  // law_of.hpp
   double lambda, mu;  // Lame's constants
 
   static IsotropicElastic from_young(double young, double poisson) {

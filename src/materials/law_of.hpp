@@ -4,6 +4,8 @@
 //   solid: Matrix3<T> stress(const Matrix3<T>& F)             first Piola-Kirchhoff stress
 //          TangentBound<T> bound(const Matrix3<T>& F)         see PointBatch
 //          T energy(const Matrix3<T>& F), or for T = double   per reference volume
+//          `compiled_whole` = true where stress and bound share much of what they compute: they become one function, at the price
+//          of longer compilation
 //   thin (plane, line, fibre; n strains): Point prepare(const std::array<T, n>& E), std::array<T, n> stress(Point),
 //          T bound(Point) (half the largest eigenvalue of the tangent, E12 counted twice in dE : dE), double energy(E),
 //          double transverse_stretch(E)
@@ -100,10 +102,11 @@ class LawOf final : public Law<kind> {
   }
   std::vector<HistoryField> history_fields() const override { return fields_; }
 
-  [[gnu::flatten]] void stress(PointBatch<kind>& points) const override {
-    for (int point = points.first; point < points.first + points.count; point += pack_size) {
-      respond_pack(points, point, strain_of_pack(points, point));
-    }
+  void stress(PointBatch<kind>& points) const override {
+    if constexpr (kind == PointKind::solid && requires { Formulas::compiled_whole; })
+      respond_whole(points);
+    else
+      respond_packs(points);
   }
 
   void tangent(std::span<const double, n> strain, double increment, std::span<double> history,
@@ -197,6 +200,12 @@ class LawOf final : public Law<kind> {
     for (int k = 0; k < n; ++k) component(result, k) = strain[k];
     return result;
   }
+
+  void respond_packs(PointBatch<kind>& points) const {
+    for (int point = points.first; point < points.first + points.count; point += pack_size)
+      respond_pack(points, point, strain_of_pack(points, point));
+  }
+  [[gnu::flatten]] void respond_whole(PointBatch<kind>& points) const { respond_packs(points); }
 
   static Kinematics<Pack> strain_of_pack(const PointBatch<kind>& points, int point) {
     Kinematics<Pack> strain;

@@ -10,6 +10,7 @@
 namespace balocco {
 
 struct MooneyRivlin {
+  static constexpr bool compiled_whole = true;  // law_of.hpp
   double c10, c01, bulk;
 
   template <class T>

@@ -14,6 +14,7 @@ inline double bulk_modulus(double d1, double shear_modulus) {
 }
 
 struct NeoHooke {
+  static constexpr bool compiled_whole = true;  // law_of.hpp
   double c10, bulk;
 
   template <class T>

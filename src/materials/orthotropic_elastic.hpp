@@ -8,6 +8,7 @@
 namespace balocco {
 
 struct OrthotropicElastic {
+  static constexpr bool compiled_whole = true;  // law_of.hpp
   std::array<double, 9> normal;  // D1111 D1122 D1133, D1122 D2222 D2233, D1133 D2233 D3333
   double shear12, shear13, shear23;
   double lambda, mu;  // D <= lambda I x I + 2 mu Id
