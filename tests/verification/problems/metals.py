@@ -2,8 +2,16 @@
 import math
 
 from dynamics import history
-from meshes import BEAMS, FIELDS, SOLIDS, angle, block, elastic, line, patchwork, quarter_disc, sheet
+from meshes import BEAMS, FIELDS, SHELLS, SOLIDS, angle, block, elastic, line, patchwork, quarter_disc, sheet
 from verification import problem
+
+
+STIFF_FOOT = ("the hourglass stiffness of the reduced brick stays elastic where the copper flows, and holds the foot's edge back; "
+              "order 0.6")
+# Energies balance to 0.5 %, of hourglass 1 %.
+CLAMPED = ("shells on 8, 16, 32 x 64 give 0.89, 1.07, 1.10 (1.20 at the peak), bricks whose hourglass stresses flow 0.36, 0.90, 1.00: both "
+           "tend to 1.1 for these data; sides that are hinged, not clamped, give 13 % more")
+STIFF_HINGE = "the mesh is near its limit (shells give -9.3 %): the reference is a measurement"
 
 
 @problem("J2", "bar pulled to a true strain of 1, E 200e3, nu 0.3, yield 400 + 100 x plastic strain", "closed form, ln(l / L) = s / E + ep",
@@ -49,14 +57,16 @@ def taylor(session, kind, n):
             "length, mm": 32.4 + results.at(mesh.node_at((0.0, 0.0, 32.4)), "U")[2]}
 
 
-@problem("PANEL", "cylindrical panel of 120 degrees, R 2.9375, L 12.56, t 0.125 in, hit at 5650 in/s over 10.205 in of its length",
+@problem("PANEL", "cylindrical panel of 120 degrees, R 2.9375, L 12.56, t 0.125 in, hit at 5650 in/s over 10.205 x 3.08 in",
          "Balmer & Witmer 1964 (experiment 1.28); Belytschko & Leviathan; Abaqus", {"deflection at L / 2, in": (1.265, 0.07)},
-         {kind: (8, 16) for kind in ("S4R", "S4", "S3R")}, lambda n: "%d x %d" % (n, 2 * n))
+         {kind: (8, 16) for kind in SHELLS}, lambda n: "%d x %d" % (n, 2 * n), {}, {kind: CLAMPED for kind in SHELLS})
 def panel(session, kind, n):
-    """Half of the panel: r from the crown to the clamped edge, s along the axis; hinged ends, clamped side."""
+    """Half of the panel: r from the crown to the clamped edge, s along the axis; hinged ends, clamped side. Struck are 13/16 of the
+    length and, of the arc, the middle half: hit over all of it the panel would stop in hoop compression, after rho v^2 R / 2 sy =
+    0.27 in."""
     mesh = sheet(kind, (n, 2 * n), lambda r, s: (2.9375 * math.sin(angle(60.0) * r), 12.56 * s, 2.9375 * math.cos(angle(60.0) * r)), 0.125)
     mesh.section(0.125, yielding(10.5e6, 0.33, 44000.0, 0.0, 2.5e-4))
-    struck = [m for m, p in mesh.parameters.items() if 12.56 * p[1] <= 10.205 + 1e-9 and p[0] < 1.0 - 1e-9]
+    struck = [m for m, p in mesh.parameters.items() if 12.56 * p[1] <= 10.205 + 1e-9 and p[0] <= 0.5 + 1e-9]
     mesh.add("*INITIAL CONDITIONS, TYPE=VELOCITY")
     for m in struck:
         turned = angle(60.0) * mesh.parameters[m][0]
@@ -73,7 +83,7 @@ def panel(session, kind, n):
 
 @problem("CLBEAM", "clamped 6061-T6 beam of 10 in, 1.2 x 0.125, hit at 5000 in/s over 2 in in its middle; a half",
          "Balmer & Witmer 1964 (experiment about 0.78)", {"deflection of the middle, in": (0.78, 0.10)},
-         {kind: (20, 40) for kind in ("S4R", "B31", "C3D8R")}, str)
+         {kind: (20, 40) for kind in ("S4R", "B31", "C3D8R")}, str, {}, {"C3D8R": STIFF_HINGE})
 def clamped_beam(session, kind, n):
     """r from the middle to the clamped end."""
     material = yielding(10.4e6, 0.33, 41400.0, 0.0, 2.61e-4)
