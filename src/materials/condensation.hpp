@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "materials/law_of.hpp"
 #include "materials/stretch.hpp"
@@ -166,12 +167,13 @@ struct Condensed {
     return result;
   }
 
-  /// slope^-1 right.
+  /// slope^-1 right; a point that has failed has no slope, and nothing to solve.
   template <class T, class V>
   static std::array<T, m> solve(const std::array<std::array<V, m>, m>& a, const std::array<T, m>& right) {
-    if constexpr (m == 1) return {right[0] / T(a[0][0])};
+    const auto safe = [](const V& x) { return V(select(x == V(0.0), V(1.0), x)); };
+    if constexpr (m == 1) return {right[0] / T(safe(a[0][0]))};
     if constexpr (m == 2) {
-      const T inverse = T(1.0 / (a[0][0] * a[1][1] - a[0][1] * a[1][0]));
+      const T inverse = T(1.0 / safe(a[0][0] * a[1][1] - a[0][1] * a[1][0]));
       return {inverse * (T(a[1][1]) * right[0] - T(a[0][1]) * right[1]),
               inverse * (T(a[0][0]) * right[1] - T(a[1][0]) * right[0])};
     }
@@ -196,11 +198,14 @@ auto Condensed<kind, Solid>::stress(const std::array<T, n>& strain, State<T>& st
   const SolidMemory<V> old = converted<V, T>(state.solid);
   constexpr int most_iterations = 30;
   Balance<V> now = balance(fixed, free, old, increment);
+  V before = V(std::numeric_limits<double>::max());
   for (int k = 0; k < most_iterations; ++k) {
     V size = V(0.0);
     for (int i = 0; i < m; ++i) size = maximum(size, absolute(now.stress[i]));
-    const auto open = size > 1e-14 * modulus;  // round-off of F
+    // Until nothing is left, or round-off alone, which no further step makes smaller.
+    const auto open = size > 1e-14 * modulus && (size > 1e-11 * modulus || size < 0.5 * before);
     if (!any(open)) break;
+    before = size;
     const auto step = solve(now.slope, now.stress);
     for (int i = 0; i < m; ++i)  // a step never takes more than three quarters of C
       free[i] = select(open, maximum(free[i] - step[i], 0.25 * free[i] - 0.75), free[i]);

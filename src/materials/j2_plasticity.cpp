@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "materials/condensation.hpp"
+#include "materials/j2_plane_stress.hpp"
 #include "materials/material_option.hpp"
 #include "model/diagnostics.hpp"
 #include "model/model.hpp"
@@ -101,10 +102,11 @@ J2Plasticity J2Plasticity::of(const Material& material) {
 
 template <PointKind kind>
 std::unique_ptr<Law<kind>> make_metal(const Material& material) {
-  if constexpr (kind == PointKind::solid)
-    return make_solid_law(J2Plasticity::of(material));
-  else
-    return make_condensed_law<kind>(J2Plasticity::of(material));
+  const auto law = J2Plasticity::of(material);
+  if constexpr (kind == PointKind::solid) return make_solid_law(law);
+  if constexpr (kind == PointKind::plane)
+    if (law.back_stresses.empty()) return std::make_unique<LawOf<kind, J2PlaneStress>>(J2PlaneStress(law));
+  if constexpr (kind != PointKind::solid) return make_condensed_law<kind>(law);
 }
 template std::unique_ptr<Law<PointKind::solid>> make_metal(const Material&);
 template std::unique_ptr<Law<PointKind::plane>> make_metal(const Material&);

@@ -8,6 +8,7 @@
 
 #include "materials/flow_stress.hpp"
 #include "materials/material_law.hpp"
+#include "materials/plastic_increment.hpp"
 #include "materials/stretch.hpp"
 #include "materials/tangent_bound.hpp"
 #include "math/symmetric_tensor.hpp"
@@ -199,10 +200,6 @@ struct J2Plasticity {
     const Matrix3<V> b = full(exponential_less_identity(trial_strain - flowed));
     return a + b + a * b;
   }
-  /// Newton's method within a bracket; lanes that have arrived stay where they are, so that a lane equals the scalar.
-  template <class V>
-  V plastic_increment(const SymmetricTensor<V>& deviator, const State<V>& state, double increment,
-                      const V& trial_mises, const auto& yields) const;
 };
 
 /// The form of a metal's law. @throws InputError if the options of the material do not fit together
@@ -220,36 +217,6 @@ auto values(const SymmetricTensor<T>& a) {
 
 }  // namespace j2_detail
 
-template <class V>
-V J2Plasticity::plastic_increment(const SymmetricTensor<V>& deviator, const State<V>& state, double increment,
-                                  const V& trial_mises, const auto& yields) const {
-  const double exponent = increment < quasi_static ? flow.search_exponent() : 1.0;
-  const bool curved = exponent != 1.0;
-  V scale = V(1.0);
-  if (curved) {  // the overstress law and elasticity both bound the increment from above
-    const V still = flow.static_curve(state.equivalent_plastic_strain).value;
-    const V rate_bound = (increment * flow.rate_parameter) * power(maximum(trial_mises / still - 1.0, V(0.0)), exponent);
-    const V elastic_bound = (1.0 / (3.0 * shear)) * trial_mises;
-    scale = -maximum(-rate_bound, -elastic_bound);
-  }
-  V low = V(0.0), high = curved ? V(1.0) : (1.0 / (3.0 * shear)) * trial_mises, y = curved ? high : low;
-  const V tolerance = 1e-14 * trial_mises;
-  constexpr int most_iterations = 60;
-  for (int i = 0; i < most_iterations; ++i) {
-    const V dp = curved ? scale * power(y, exponent) : y;
-    const Sloped<V> r = residual(deviator, state, dp, increment);
-    const auto open = yields && maximum(r.value, -r.value) > tolerance;
-    if (!any(open)) break;
-    const V slope = curved ? r.slope * (exponent * dp / y) : r.slope;
-    low = select(r.value > 0.0, y, low);
-    high = select(r.value > 0.0, high, y);
-    const V newton = y - r.value / slope;
-    const V next = select(newton >= low && newton <= high, newton, 0.5 * (low + high));
-    y = select(open, next, y);
-  }
-  return curved ? scale * power(y, exponent) : y;
-}
-
 template <class T>
 void J2Plasticity::flow_back(const SymmetricTensor<T>& trial_strain, SymmetricTensor<T>& deviator, State<T>& state,
                              double increment) const {
@@ -263,7 +230,9 @@ void J2Plasticity::flow_back(const SymmetricTensor<T>& trial_strain, SymmetricTe
   if (!any(yields)) return;
 
   const SymmetricTensor<V> fixed = j2_detail::values(deviator);
-  const V dp = select(yields, plastic_increment(fixed, old, increment, trial_mises, yields), V(0.0));
+  const auto open_stress = [&](const V& dp) { return residual(fixed, old, dp, increment); };
+  const V dp = select(yields, plastic_increment(flow, old.equivalent_plastic_strain, increment, trial_mises, 3.0 * shear, yields, open_stress),
+                      V(0.0));
   // One step of Newton's method with duals at the root gives dp its exact derivative; for plain scalars it adds zero.
   const T mises = relative(deviator, state, dp).mises;
   const V slope = residual(fixed, old, dp, increment).slope;

@@ -103,7 +103,7 @@ class LawOf final : public Law<kind> {
   std::vector<HistoryField> history_fields() const override { return fields_; }
 
   void stress(PointBatch<kind>& points) const override {
-    if constexpr (kind == PointKind::solid && requires { Formulas::compiled_whole; })
+    if constexpr (requires { Formulas::compiled_whole; })
       respond_whole(points);
     else
       respond_packs(points);

@@ -8,7 +8,7 @@
 #include "explicit_nodes.hpp"
 #include "math/exact_sum.hpp"
 
-namespace balocco::testing {
+namespace balocco::test {
 
 namespace {
 
@@ -70,4 +70,4 @@ TEST(ExplicitNodes, OnlyTheNodesNamedAreClearedAndAdded) {
 
 }  // namespace
 
-}  // namespace balocco::testing
+}  // namespace balocco::test

@@ -5,7 +5,7 @@
 
 #include "solid_fixture.hpp"
 
-namespace balocco::testing {
+namespace balocco::test {
 
 namespace {
 
@@ -270,4 +270,4 @@ TEST(SolidMetal, StableIncrementIsSafeAndSharp) {
   }
 }
 
-}  // namespace balocco::testing
+}  // namespace balocco::test
