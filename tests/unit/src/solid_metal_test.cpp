@@ -1,7 +1,6 @@
 // Solids of metal: hourglass stresses that flow with the centre of C3D8R, and stable increments of what has flowed far.
 #include <gtest/gtest.h>
 
-#include <cstring>
 
 #include "solid_fixture.hpp"
 
@@ -196,7 +195,7 @@ TEST(SolidMetal, PacksEqualScalars) {
   c.explicit_cycle();
   const std::vector<double> packed = c.element_history(0);
   EXPECT_GT(packed[c.group->law_field_row("PEEQ", 0)], before);
-  EXPECT_EQ(std::memcmp(packed.data(), history.data(), sizeof(double) * history.size()), 0);
+  EXPECT_EQ(packed, history);
   for (int i = 0; i < 24; ++i) EXPECT_EQ(c.force[4 * c.group->nodes(0)[i / 3] + i % 3], 0.0 - force[i]);
 }
 
