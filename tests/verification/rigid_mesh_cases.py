@@ -12,7 +12,7 @@ OUTPUT = """*OUTPUT, FIELD, NUMBER INTERVAL=2, PRECISION=DOUBLE
 U, V, RF
 *CONTACT OUTPUT
 CPRESS, COPEN
-*OUTPUT, HISTORY, FREQUENCY=20
+*OUTPUT, HISTORY, FREQUENCY=1
 *NODE OUTPUT, NSET=REFERENCE
 RF3
 *ENERGY OUTPUT
@@ -89,7 +89,7 @@ CIRCL, 0, {centre - radius}, 0, {centre}
 
 def pressed_by_a_ball(run):
     """A ball of radius 10 pressed 0.8 into a rubber block, statically and then moved on explicitly: facets of 4.5 degrees have a sag of
-    0.008 and give the analytical ball's force within 3 %."""
+    0.008 and give the analytical ball's force within 3 %, its mean where nodes are hit one after the other."""
     force = {}
     for name, surface in (("analytical", ball_analytical(10.0, 10.0)), ("mesh", ball_mesh(10.0, 10.0, 20))):
         deck = (block((8, 8, 3), (8.0, 8.0, 3.0), (-4.0, -4.0, -3.0)) + body(surface) + f"""*CONTACT PAIR, INTERACTION=DRY
@@ -110,11 +110,11 @@ FOOT, 1, 3
 {REFERENCE}, 3, 3, -500.
 {OUTPUT}""")
         job = run(deck, 1)
-        force[name] = [job.history(f"node_{REFERENCE}", "RF3", step)[1][-1] for step in (1, 2)]
+        force[name] = [job.history(f"node_{REFERENCE}", "RF3", 1)[1][-1], job.history(f"node_{REFERENCE}", "RF3", 2)[1].mean()]
         start = job.history(f"node_{REFERENCE}", "RF3", 2)[1][0]
         check(f"{name}: force when the explicit step starts", start, force[name][0], 1e-6)
     check("static force of the mesh", force["mesh"][0], force["analytical"][0], 0.03)
-    check("explicit force of the mesh", force["mesh"][1], force["analytical"][1], 0.03)
+    check("mean explicit force of the mesh", force["mesh"][1], force["analytical"][1], 0.03)
 
 
 def sheet(at, z, counts=(6, 4)):
