@@ -21,13 +21,6 @@ inline constexpr double near = 0.01;  // |y| below which nine terms are exact to
 
 }  // namespace even_detail
 
-/// ln(x) with its derivative; for plain scalars the derivative adds zero.
-template <class T>
-T smooth_logarithm(const T& x) {
-  const auto& value = value_of(x);
-  return T(logarithm(value)) + (x - T(value)) * T(1.0 / value);
-}
-
 /// atanh(sqrt(y)) / sqrt(y) for 0 <= y < 1, with its derivative.
 template <class T>
 T inverse_hyperbolic_tangent_ratio(const T& y) {
@@ -43,6 +36,13 @@ T inverse_hyperbolic_tangent_ratio(const T& y) {
     slope = select(far, 0.5 * (1.0 / (1.0 - value) - exact) * inverse, slope);
   }
   return T(ratio) + (y - T(value)) * T(slope);
+}
+
+/// ln(x), quick where x is near 1: 2 atanh((x - 1) / (x + 1)).
+template <class T>
+T smooth_logarithm(const T& x) {
+  const T half = (x - 1.0) / (x + 1.0);
+  return 2.0 * (half * inverse_hyperbolic_tangent_ratio(T(half * half)));
 }
 
 /// cosh(sqrt(y)) and sinh(sqrt(y)) / sqrt(y) for y >= 0.

@@ -54,9 +54,11 @@ struct J2PlaneStress {
 
   template <class T>
   T bound(const std::array<T, 3>& strain, const std::array<T, 3>& stress, const State<T>& state) const {
+    // A thicker point has a greater bound, and exp(x) <= 1 + x + x^2 for the elastic part of ln C33; S : C is Kirchhoff's trace.
+    const T trace = stress[0] * (1.0 + 2.0 * strain[0]) + stress[1] * (1.0 + 2.0 * strain[1]) + 2.0 * (stress[2] * strain[2]);
+    const T elastic = (-2.0 * poisson_ / ((1.0 - poisson_) * sum_modulus_)) * trace, plastic = plastic_thickness(state.plastic);
     typename decltype(general)::template State<T> thick;
-    const T stretch = transverse(trial_of(strain, state.plastic), state.plastic);
-    thick.free[0] = stretch * stretch - 1.0;
+    thick.free[0] = plastic * plastic * (1.0 + elastic + elastic * elastic) - 1.0;
     return general.bound(strain, stress, thick);
   }
 
@@ -171,8 +173,11 @@ struct J2PlaneStress {
   /// F33 of a plane whose third stress vanishes and whose plastic flow keeps the volume.
   template <class T>
   T transverse(const Trial<T>& trial, const std::array<T, 4>& p) const {
-    const T plastic = (1.0 + p[0]) * (1.0 + p[3]) - p[1] * p[2];
-    return exponential(T((-poisson_ / (1.0 - poisson_)) * trial.sum)) * plastic;
+    return exponential(T((-poisson_ / (1.0 - poisson_)) * trial.sum)) * plastic_thickness(p);
+  }
+  template <class T>
+  static T plastic_thickness(const std::array<T, 4>& p) {
+    return (1.0 + p[0]) * (1.0 + p[3]) - p[1] * p[2];
   }
 
   template <class T>
