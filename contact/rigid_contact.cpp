@@ -185,7 +185,7 @@ double RigidContact::augment(const double* position, const RigidBodyState& maste
     const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
     const double gap = surface_.nearest(frame.inverse * arm).distance;
     points[i].multiplier = std::max(0.0, points[i].multiplier - stiffness_[i] * gap);
-    greatest = std::max(greatest, -gap);
+    if (points[i].multiplier > 0.0) greatest = std::max(greatest, std::abs(gap));
   }
   return greatest;
 }

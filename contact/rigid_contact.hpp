@@ -108,8 +108,8 @@ class RigidContact {
                            const ContactPoint& old, ContactPoint& updated) const;
 
   /// Augmented Lagrange: adds the spring's part to the multipliers, and changes nothing else, so that `points` may be
-  /// the history at the start of the increment that is being solved. @return greatest penetration on this rank before
-  /// the update.
+  /// the history at the start of the increment that is being solved. @return greatest gap or penetration of a closed
+  /// point on this rank before the update.
   double augment(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points) const;
 
   /// Gap, pressure and tangential traction of a point, and its forces (global directions, on the slave), for output.

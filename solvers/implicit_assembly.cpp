@@ -154,18 +154,10 @@ void ImplicitSystem::add_pressure_stiffness(const AssemblyRequest& request) {
 
 /// Centrifugal forces grow with the distance from their axis.
 void ImplicitSystem::add_body_load_stiffness(const AssemblyRequest& request) {
-  if (!request.load_stiffness) return;
-  for (const auto& load : step_.body_loads) {
-    if (load.kind != BodyLoad::Kind::centrifugal) continue;
-    const auto& share = analysis_.loaded_share(load);
-    const auto derivative = body_force_derivative(load, -magnitude_of(load, request), 1.0);
-    for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
-      if (share[node] == 0.0) continue;
-      auto block = derivative.component;
-      for (double& component : block) component *= share[node];
-      stiffness_.add(std::array{map_.motion(node)}, block);
-    }
-  }
+  for_each_spun_node([&](std::int32_t node, const BodyLoad& load, double share) {
+    const double magnitude = request.load_stiffness ? -magnitude_of(load, request) : 0.0;
+    stiffness_.add(std::array{map_.motion(node)}, body_force_derivative(load, magnitude, share).component);
+  });
 }
 
 void ImplicitSystem::add_contact() {

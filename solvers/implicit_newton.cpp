@@ -318,7 +318,7 @@ void ImplicitNewton::measure_correction(double factor) {
   largest_increment_ = largest[1];
 }
 
-/// Augments the contact's multipliers where it penetrates too far.
+/// Augments the contact's multipliers where it penetrates too far, or pushes across a gap: a multiplier from a greater load.
 bool ImplicitNewton::penetrates(const IncrementGoal& goal, const NewtonResult& result) {
   if (!system_.has_contact() || augmentations_ >= most_augmentations) return false;
   const double allowed = (goal.ends_step ? penetration_tolerance : passing_penetration_tolerance) * contact_length_;
@@ -326,7 +326,7 @@ bool ImplicitNewton::penetrates(const IncrementGoal& goal, const NewtonResult& r
   if (penetration <= allowed) return false;
   system_.augment_contact();
   ++augmentations_;
-  observer_.log(fmt::format("    penetration {:.3e} exceeds {:.3e}: contact forces augmented", penetration, allowed));
+  observer_.log(fmt::format("    penetration, or a gap that contact pushes across, of {:.3e} exceeds {:.3e}: contact forces augmented", penetration, allowed));
   discontinuous_ = 0;
   history_.clear();
   // Each augmentation is a new problem, with its own right to iterate: how small the last correction was says nothing of it.

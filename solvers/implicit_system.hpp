@@ -96,6 +96,16 @@ class ImplicitSystem {
   double magnitude_of(const Load& load, const AssemblyRequest& request) const;
   void add_pressure_stiffness(const AssemblyRequest& request);
   void add_body_load_stiffness(const AssemblyRequest& request);
+  /// Calls visit(local node, load, share) for the loads whose force depends on the place, always in the same order.
+  template <class Visit>
+  void for_each_spun_node(Visit visit) const {
+    for (const auto& load : step_.body_loads) {
+      if (load.kind != BodyLoad::Kind::centrifugal) continue;
+      const auto& share = analysis_.loaded_share(load);
+      for (std::int32_t node = 0; node < analysis_.domain.size(); ++node)
+        if (share[node] != 0.0) visit(node, load, share[node]);
+    }
+  }
   void add_contact();
   void add_contact_point(std::int32_t pair, std::int32_t point);
   void add_stabilization(const AssemblyRequest& request);
