@@ -322,7 +322,7 @@ void ImplicitNewton::measure_correction(double factor) {
 bool ImplicitNewton::penetrates(const IncrementGoal& goal, const NewtonResult& result) {
   if (!system_.has_contact() || augmentations_ >= most_augmentations) return false;
   const double allowed = (goal.ends_step ? penetration_tolerance : passing_penetration_tolerance) * contact_length_;
-  const double penetration = system_.greatest_penetration();
+  const double penetration = system_.greatest_misfit();
   if (penetration <= allowed) return false;
   system_.augment_contact();
   ++augmentations_;

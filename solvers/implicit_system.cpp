@@ -253,7 +253,7 @@ void ImplicitSystem::commit() {
     repeat_in_padded_lanes(*analysis_.element_groups[group], analysis_.current.element_history[group]);
 }
 
-double ImplicitSystem::greatest_penetration() const {
+double ImplicitSystem::greatest_misfit() const {
   double penetration = 0.0;
   for (const auto pair : step_.active_contact_pairs) {
     const auto& contact = analysis_.contacts[pair];

@@ -71,8 +71,8 @@ class ImplicitSystem {
   const Configuration& start_of_increment() const { return start_; }
   /// Makes the trial's histories those of the state.
   void commit();
-  /// Depth of the deepest slave node in the master. Collective.
-  double greatest_penetration() const;
+  /// Greatest gap or penetration of a slave node that contact pushes. Collective.
+  double greatest_misfit() const;
   /// Adds the present spring forces to the multipliers from which the increment's contact starts.
   void augment_contact();
   bool has_contact() const { return !step_.active_contact_pairs.empty(); }

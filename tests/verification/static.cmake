@@ -1,5 +1,5 @@
 # Static cases with known answers, each on one and on two ranks through the whole program.
-foreach(case patch_c3d8r patch_c3d8 elastica rollup rotation release linear hencky road touchdown far_reference ring flat_sheet
+foreach(case patch_c3d8r patch_c3d8 elastica rollup rotation release linear hencky road touchdown unloading far_reference ring flat_sheet
         mechanism)
   add_test(NAME static_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/static_cases.py ${case} $<TARGET_FILE:balocco>

@@ -212,6 +212,24 @@ Pack ShellGroup<corners, points>::stable_increment(const Block& block, int pack,
   return 2.0 * (square_root(1.0 + damping * damping) - damping) / omega;
 }
 
+/// Energy of transverse shear, drill and hourglass of elements that have failed in this cycle, which nothing gives back: it counts
+/// as dissipated with them. That of the layers is in their laws' books.
+template <int corners, int points>
+Pack ShellGroup<corners, points>::given_up(const Block& block, int pack, std::span<const double> history) const {
+  if (failed_rows_.empty()) return 0.0;
+  PackMask gone(true);
+  for (const int row : failed_rows_)
+    gone = gone && load_unaligned(history.data() + row * std::ptrdiff_t{padded_size_} + block.first + pack * pack_size) > 0.0;
+  if (!any(gone)) return 0.0;
+  const auto &strain = block.strain[pack], &stress = block.stress[pack];
+  Pack energy = 0.0;
+  for (int i = 0; i < corners; ++i)
+    energy = energy + 0.5 * (stress.shear[i] * strain.shear[i] + stress.drill[i] * strain.drill[i]);
+  for (int a = 0; a < Record::Layout::modes; ++a)
+    energy = energy + 0.5 * (stress.membrane_mode[a] * strain.membrane_mode[a] + stress.bending_mode[a] * strain.bending_mode[a]);
+  return select(gone, energy, Pack(0.0));
+}
+
 /// Hands a block's forces to its nodes, books the dissipation and finds the governing element.
 template <int corners, int points>
 void ShellGroup<corners, points>::finish(Block& block, const ExplicitCycle& cycle, std::span<double> history,
@@ -230,7 +248,7 @@ void ShellGroup<corners, points>::finish(Block& block, const ExplicitCycle& cycl
     }
     scatter_subtract(on_first, scatter, corners, cycle.forces.force);
     for (int i = 0; i < corners; ++i) scatter_subtract(nodal.moment[i], scatter + i, corners, cycle.forces.moment);
-    store_unaligned(load_unaligned(dissipation + element) + block.dissipated[pack], dissipation + element);
+    store_unaligned(load_unaligned(dissipation + element) + block.dissipated[pack] + given_up(block, pack, history), dissipation + element);
 
     merge(stable_increment(block, pack, cycle), element, stable);
   }

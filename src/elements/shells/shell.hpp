@@ -95,6 +95,7 @@ class ShellGroup final : public ElementGroup, public MaterialRotaryInertia {
   void add_layers(int point, Block& block, double increment, std::span<double> history) const;
   void add_viscosity(Block& block, int pack, const ExplicitCycle& cycle, std::span<double> history) const;
   Pack stable_increment(const Block& block, int pack, const ExplicitCycle& cycle) const;
+  Pack given_up(const Block& block, int pack, std::span<const double> history) const;
   void begin(int pack, Block& block, const ExplicitCycle& cycle) const;
   void finish(Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
 
