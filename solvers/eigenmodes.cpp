@@ -128,7 +128,8 @@ std::vector<EigenPair> Eigenmodes::search(const EigenRange& range) {
     const bool past_highest = !pairs.empty() && pairs.back().value > range.highest;
     std::erase_if(pairs, [&](const auto& pair) { return pair.value < range.lowest || pair.value > range.highest; });
     const bool enough = static_cast<int>(pairs.size()) >= range.number || past_highest || asked == equations;
-    if (enough && (found_below == below || past_lowest || asked == equations)) {
+    const bool far_below = asked > 4 * range.number + 64;  // what is missing there, no number of pairs around the shift would find
+    if (enough && (found_below == below || past_lowest || far_below || asked == equations)) {
       if (static_cast<int>(pairs.size()) > range.number) pairs.resize(range.number);
       return pairs;
     }

@@ -29,7 +29,7 @@ class Eigenmodes {
 
   /// Eigenvalues below `value`, which is none itself. @throws AnalysisError if the factorisation fails. Collective.
   int count_below(double value);
-  /// The pairs in the range, in rising order: all negative ones that are, too. @throws AnalysisError. Collective.
+  /// The pairs in the range, in rising order: negative ones too, but for those far below all others. @throws AnalysisError. Collective.
   std::vector<EigenPair> find(EigenRange range);
   /// A value near zero against all that counts, and below the zeros of rigid motions. Collective.
   double small_shift() const;

@@ -45,6 +45,7 @@ class FrequencyStep {
   void normalize(Mode& mode) const;
   void find_participation(Mode& mode, std::span<const double> equations);
   void log_table(const std::vector<Mode>& modes);
+  void log_stability(const std::vector<Mode>& modes, int negative, double least);
   std::string largest_motion(const Mode& mode) const;
 
   Analysis& analysis_;
@@ -53,6 +54,7 @@ class FrequencyStep {
   Observer& observer_;
   ImplicitSystem system_;
   ImplicitStiffness mass_;
+  bool unsymmetric_ = false;  // friction or follower loads: modes are those of the symmetric part
 };
 
 /// Stiffness and mass where the state stands, under the loads that the last general step left; linear steps: those of the
@@ -81,7 +83,8 @@ void FrequencyStep::symmetrize() {
   petsc(MatNorm(transposed, NORM_FROBENIUS, &skew));
   petsc(MatAXPY(stiffness, 0.5, transposed, DIFFERENT_NONZERO_PATTERN));
   petsc(MatSetOption(stiffness, MAT_SYMMETRIC, PETSC_TRUE));
-  if (skew > 1e-10 * whole)
+  unsymmetric_ = skew > 1e-10 * whole;
+  if (unsymmetric_)
     observer_.log(fmt::format("  warning: the stiffness is not symmetric (friction, or a load that follows): modes of its "
                               "symmetric part, {:.1e} of it left out",
                               skew / whole));
@@ -209,6 +212,23 @@ void FrequencyStep::log_table(const std::vector<Mode>& modes) {
   }
 }
 
+/// `negative`: how many eigenvalues are, listed among the modes or not.
+void FrequencyStep::log_stability(const std::vector<Mode>& modes, int negative, double least) {
+  const auto listed = std::ranges::count_if(modes, [](const Mode& mode) { return mode.eigenvalue < 0.0; });
+  if (negative == 0) {
+    observer_.log(fmt::format("  the state is stable: no eigenvalue lies below {:.3g}", least));
+  } else if (unsymmetric_ && listed == 0 && !modes.empty()) {
+    observer_.log(fmt::format("  of the symmetric part {} eigenvalues are negative, far below those of the modes; friction makes such where "
+                              "contact slides: they do not prove the state unstable", negative));
+  } else {
+    observer_.log(fmt::format(
+        "  warning: the state is unstable: {} of its eigenvalues {} negative{}", negative, negative == 1 ? "is" : "are",
+        listed > 0 ? fmt::format("; mode 1 grows by a factor e in a time of {:.4g}, most at {}",
+                                 1.0 / std::sqrt(-modes.front().eigenvalue), largest_motion(modes.front()))
+                   : ""));
+  }
+}
+
 void FrequencyStep::run() {
   const double begin = MPI_Wtime();
   const auto here = system_.configuration();
@@ -226,16 +246,7 @@ void FrequencyStep::run() {
   system_.restore(here);
   for (const auto& mode : modes) observer_.mode_found(mode);
   log_table(modes);
-  if (negative > 0) {
-    const bool shown = !modes.empty() && modes.front().eigenvalue < 0.0;
-    observer_.log(fmt::format(
-        "  warning: the state is unstable: {} of its eigenvalues {} negative{}", negative, negative == 1 ? "is" : "are",
-        shown ? fmt::format("; mode 1 grows by a factor e in a time of {:.4g}, most at {}",
-                            1.0 / std::sqrt(-modes.front().eigenvalue), largest_motion(modes.front()))
-              : ""));
-  } else {
-    observer_.log(fmt::format("  the state is stable: no eigenvalue lies below {:.3g}", solver.small_shift()));
-  }
+  log_stability(modes, negative, solver.small_shift());
   observer_.log(fmt::format("  {:.2f} s", MPI_Wtime() - begin));
 }
 
