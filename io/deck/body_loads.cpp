@@ -8,6 +8,7 @@
 #include "deck/geometry.hpp"
 #include "deck/load_magnitude.hpp"
 #include "deck/text.hpp"
+#include "elements/element_type.hpp"
 
 namespace balocco::deck {
 
@@ -31,11 +32,29 @@ const Label* find_label(const std::string& name) {
   return found == labels.end() ? nullptr : &*found;
 }
 
+/// Whether an element has mass, or for a force by volume a volume, for a load to act on.
+bool takes(const ElementType& type, BodyLoad::Kind kind) {
+  switch (type.section) {
+    case Section::Kind::mass: return kind != BodyLoad::Kind::volume_force;
+    case Section::Kind::rotary_inertia:
+    case Section::Kind::spring:
+    case Section::Kind::dashpot:
+    case Section::Kind::rigid: return false;
+    default: return true;
+  }
+}
+
 /// Set of a line, -1: the whole model; a single element gets a set of its own.
-std::optional<std::int32_t> set_of(Builder& builder, const Block& block, Row& row) {
+std::optional<std::int32_t> set_of(Builder& builder, const Block& block, Row& row, BodyLoad::Kind kind) {
   if (!row.has(0)) return -1;
   std::vector<ElementRef> elements;
   if (!builder.elements_of(row.text(0), block, row.location(), elements)) return std::nullopt;
+  if (std::ranges::none_of(elements, [&](ElementRef element) { return takes(*builder.model.elements[element.table].type, kind); })) {
+    row.error(fmt::format("no element of {} has {} for {} to act on; load solids, sheets or lines{}", row.text(0),
+                          kind == BodyLoad::Kind::volume_force ? "a volume" : "mass", row.name(1),
+                          kind == BodyLoad::Kind::volume_force ? "" : ", or MASS elements"));
+    return std::nullopt;
+  }
   if (!parse_integer(row.text(0))) return *builder.find(builder.element_sets, row.name(0));
   const auto set = builder.element_set_row("_DLOAD-" + row.name(0));
   builder.add_to_element_set(set, elements[0]);
@@ -86,7 +105,7 @@ void read_body_load(Builder& builder, const Block& block, Row& row, std::int32_t
   load.kind = label.kind;
   read_numbers(row, label, load);
   if (!row.ok()) return;
-  const auto set = set_of(builder, block, row);
+  const auto set = set_of(builder, block, row, load.kind);
   if (!set) return;
   load.element_set = *set;
   load.magnitude = scaled(builder, amplitude, load.magnitude);
