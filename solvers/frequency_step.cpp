@@ -217,9 +217,10 @@ void FrequencyStep::log_stability(const std::vector<Mode>& modes, int negative, 
   const auto listed = std::ranges::count_if(modes, [](const Mode& mode) { return mode.eigenvalue < 0.0; });
   if (negative == 0) {
     observer_.log(fmt::format("  the state is stable: no eigenvalue lies below {:.3g}", least));
-  } else if (unsymmetric_ && listed == 0 && !modes.empty()) {
-    observer_.log(fmt::format("  of the symmetric part {} eigenvalues are negative, far below those of the modes; friction makes such where "
-                              "contact slides: they do not prove the state unstable", negative));
+  } else if (unsymmetric_ && system_.has_contact() && listed == 0 && !modes.empty()) {
+    observer_.log(fmt::format("  of the symmetric part {} eigenvalues are negative, far below those of the modes; friction makes such "
+                              "where contact slides: they do not prove the state unstable",
+                              negative));
   } else {
     observer_.log(fmt::format(
         "  warning: the state is unstable: {} of its eigenvalues {} negative{}", negative, negative == 1 ? "is" : "are",

@@ -69,7 +69,7 @@ NewtonResult ImplicitNewton::converge(const IncrementGoal& goal) {
     log_iteration(result, now);
     if (accepted(goal, now, result)) {
       if (!stands_alone(goal)) throw AnalysisError(mechanism_message(step_, mechanism_));
-      if (!penetrates(goal, result)) {
+      if (!contact_misfits(goal, result)) {
         result.converged = true;
         return result;
       }
@@ -319,14 +319,15 @@ void ImplicitNewton::measure_correction(double factor) {
 }
 
 /// Augments the contact's multipliers where it penetrates too far, or pushes across a gap: a multiplier from a greater load.
-bool ImplicitNewton::penetrates(const IncrementGoal& goal, const NewtonResult& result) {
+bool ImplicitNewton::contact_misfits(const IncrementGoal& goal, const NewtonResult& result) {
   if (!system_.has_contact() || augmentations_ >= most_augmentations) return false;
   const double allowed = (goal.ends_step ? penetration_tolerance : passing_penetration_tolerance) * contact_length_;
-  const double penetration = system_.greatest_misfit();
-  if (penetration <= allowed) return false;
+  const double misfit = system_.greatest_misfit();
+  if (misfit <= allowed) return false;
   system_.augment_contact();
   ++augmentations_;
-  observer_.log(fmt::format("    penetration, or a gap that contact pushes across, of {:.3e} exceeds {:.3e}: contact forces augmented", penetration, allowed));
+  observer_.log(fmt::format("    penetration, or a gap that contact pushes across, of {:.3e} exceeds {:.3e}: contact forces augmented",
+                            misfit, allowed));
   discontinuous_ = 0;
   history_.clear();
   // Each augmentation is a new problem, with its own right to iterate: how small the last correction was says nothing of it.

@@ -76,7 +76,7 @@ class ImplicitNewton {
   bool stands_alone(const IncrementGoal& goal);
   bool circles() const;
   bool search_line(const IncrementGoal& goal);
-  bool penetrates(const IncrementGoal& goal, const NewtonResult& result);
+  bool contact_misfits(const IncrementGoal& goal, const NewtonResult& result);
   bool gives_up(const IncrementGoal& goal, const Norms& now, NewtonResult& result);
   void measure_correction(double factor);
   void log_iteration(const NewtonResult& result, const Norms& now) const;

@@ -254,14 +254,14 @@ void ImplicitSystem::commit() {
 }
 
 double ImplicitSystem::greatest_misfit() const {
-  double penetration = 0.0;
+  double misfit = 0.0;
   for (const auto pair : step_.active_contact_pairs) {
     const auto& contact = analysis_.contacts[pair];
     auto points = start_contact_[pair];  // only looked at
-    penetration = std::max(penetration, contact.augment(analysis_.current.position.data(),
-                                                        analysis_.current.rigid_bodies[contact.master_body()], points));
+    misfit = std::max(misfit, contact.augment(analysis_.current.position.data(),
+                                              analysis_.current.rigid_bodies[contact.master_body()], points));
   }
-  return analysis_.communicator.maximum(penetration);
+  return analysis_.communicator.maximum(misfit);
 }
 
 void ImplicitSystem::augment_contact() {

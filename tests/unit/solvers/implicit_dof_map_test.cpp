@@ -15,10 +15,10 @@ namespace {
 using namespace test;
 using Role = ImplicitDofMap::Role;
 
-/// PETSc for the life of the program; MPI is the main function's.
+/// PETSc and SLEPc for the life of the program; MPI is the main function's.
 struct Petsc : testing::Environment {
-  void SetUp() override { petsc(PetscInitializeNoArguments()); }
-  void TearDown() override { petsc(PetscFinalize()); }
+  void SetUp() override { petsc(SlepcInitializeNoArguments()); }
+  void TearDown() override { petsc(SlepcFinalize()); }
 };
 const auto* const environment = testing::AddGlobalTestEnvironment(new Petsc);
 
