@@ -20,8 +20,8 @@ struct SharedNodes {
 };
 
 /// Sums of nodal vectors (4 doubles a node, of which the first 3 travel) over the copies of shared nodes: one vector of every node
-/// and a second one of nodes that turn, or several such fields, in one message per neighbour. Addends must be rounded with the node's rounding constant, so
-/// that the sum is exact and every copy holds the same bits. Requests are persistent: a cycle allocates nothing.
+/// and a second one of nodes that turn, or several such fields, in one message per neighbour. Addends must be rounded with the node's
+/// rounding constant, so that the sum is exact and every copy holds the same bits. Requests are persistent: a cycle allocates nothing.
 class Halo {
  public:
   /// Exchanges that may be under way at the same time have tags of their own.

@@ -5,7 +5,6 @@
 
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
-#include "elements/rotary_inertia.hpp"
 #include "math/rotation.hpp"
 
 namespace balocco {
@@ -30,11 +29,10 @@ void for_each_inertia(const Analysis& analysis, const ImplicitDofMap& map, Visit
   };
   std::vector<double> tensors;
   for (const auto& group : analysis.element_groups) {
-    const auto* const turning = dynamic_cast<const MaterialRotaryInertia*>(group.get());
-    if (turning == nullptr) continue;
+    if (group->freedoms_per_node() == 3) continue;
     tensors.resize(9 * group->nodes_per_element());
     for (std::int32_t element = 0; element < group->size(); ++element) {
-      turning->material_rotary_inertia(element, tensors);
+      group->material_rotary_inertia(element, tensors);
       for (int i = 0; i < group->nodes_per_element(); ++i) {
         Matrix3<double> at_rest;
         std::copy_n(&tensors[9 * i], 9, at_rest.component.begin());

@@ -130,6 +130,10 @@ void ElementGroup::lumped_rotary_inertia(std::int32_t, std::span<double> inertia
   std::fill(inertia.begin(), inertia.end(), 0.0);
 }
 
+void ElementGroup::material_rotary_inertia(std::int32_t, std::span<double> tensors) const {
+  std::fill(tensors.begin(), tensors.end(), 0.0);
+}
+
 void ElementGroup::energies(std::int32_t first, const NodalMotion& motion, std::span<const double> group_history,
                             std::span<ElementEnergies> of_lanes) const {
   std::vector<double> own(history_size());

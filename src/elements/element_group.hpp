@@ -109,8 +109,11 @@ class ElementGroup {
   virtual double density() const = 0;
   void lumped_mass(std::int32_t element, std::span<double> mass) const;
 
-  /// Lumped rotary inertia of each node, the same about all axes (mass x length^2); asked only where nodes turn.
+  /// Lumped rotary inertia of each node, the same about all axes (mass x length^2), raised for the explicit increment's sake; asked
+  /// only where nodes turn.
   virtual void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const;
+  /// As the material has it: 3 x 3 a node, row-major, about global axes in the reference configuration.
+  virtual void material_rotary_inertia(std::int32_t element, std::span<double> tensors) const;
 
   /// Which elements act in explicit cycles from now on, one flag an element; empty: all (as at first). The others rest, because
   /// one rigid body carries them or they are out of the model: they are not computed, bound no increment and keep their history.

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """Initial stress and hardening, elements taken out of the model, springs of rotations: element_state_cases.py CASE BALOCCO FOLDER."""
 import math
-import sys
 
 import numpy as np
 
-from explicit_cases import Job, check, failures
+from explicit_cases import UNIT_CUBE, check, run_case
 
 FIELD = """*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE
 *NODE OUTPUT
@@ -14,20 +13,7 @@ U, RF, UR
 S
 """
 
-CUBE = """*NODE, NSET=ALL
-1, 0, 0, 0
-2, 1, 0, 0
-3, 1, 1, 0
-4, 0, 1, 0
-5, 0, 0, 1
-6, 1, 0, 1
-7, 1, 1, 1
-8, 0, 1, 1
-*NSET, NSET=LEFT
-1, 4, 5, 8
-*NSET, NSET=RIGHT
-2, 3, 6, 7
-*NSET, NSET=FRONT
+CUBE = UNIT_CUBE + """*NSET, NSET=FRONT
 1, 2, 5, 6
 *NSET, NSET=BOTTOM
 1, 2, 3, 4
@@ -205,18 +191,5 @@ def torsion(run):
     check("automatic increment", time[3] - time[2], 0.95 * 2.0 / omega, 1e-9)
 
 
-def main():
-    case, balocco, folder = sys.argv[1:4]
-    counter = iter(range(1000))
-
-    def run(text, ranks):
-        job = Job(f"{case}_{next(counter)}", balocco, str(ranks), folder)
-        job.run(text)
-        return job
-
-    globals()[case](run)
-    sys.exit(1 if failures else 0)
-
-
 if __name__ == "__main__":
-    main()
+    run_case(globals())

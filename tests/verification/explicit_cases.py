@@ -71,6 +71,37 @@ def check_energy(job, tolerance, steps=(1,)):
         check(f"energy drift in step {step}", np.abs(total - total[0]).max() / largest, 0.0, tolerance)
 
 
+UNIT_CUBE = """*NODE, NSET=ALL
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+5, 0, 0, 1
+6, 1, 0, 1
+7, 1, 1, 1
+8, 0, 1, 1
+*NSET, NSET=LEFT
+1, 4, 5, 8
+*NSET, NSET=RIGHT
+2, 3, 6, 7
+"""
+
+
+def run_case(cases):
+    """The main of a script: SCRIPT CASE BALOCCO FOLDER calls the case of that name with run(text, ranks, place=None), which gives the
+    job of a deck, run in the folder under a number, or under the case's own name in `place` below it."""
+    case, balocco, folder = sys.argv[1:4]
+    counter = iter(range(1000))
+
+    def run(text, ranks, place=None):
+        job = Job(case if place else f"{case}_{next(counter)}", balocco, str(ranks), pathlib.Path(folder) / (place or ""))
+        job.run(text)
+        return job
+
+    cases[case](run)
+    sys.exit(1 if failures else 0)
+
+
 def truss_stability(job):
     """DT-T3D2: the critical increment of a free lumped truss is L / c = 1.933415e-5 exactly."""
     critical = 0.1 * math.sqrt(7850.0 / 210e9)

@@ -1,15 +1,13 @@
 #!/usr/bin/env python3
 """*SHEAR FAILURE and element deletion: failure_cases.py CASE BALOCCO FOLDER."""
 import math
-import pathlib
 import shutil
 import subprocess
-import sys
 
 import h5py
 import numpy as np
 
-from explicit_cases import Job, check, failures
+from explicit_cases import UNIT_CUBE, check, run_case
 
 YOUNG, YIELD, FAILURE, DENSITY = 200e3, 400.0, 0.05, 7.8e-9
 
@@ -24,20 +22,7 @@ STEEL = f"""*MATERIAL, NAME=M
 {FAILURE}
 """
 
-CUBE = """*NODE, NSET=ALL
-1, 0, 0, 0
-2, 1, 0, 0
-3, 1, 1, 0
-4, 0, 1, 0
-5, 0, 0, 1
-6, 1, 0, 1
-7, 1, 1, 1
-8, 0, 1, 1
-*NSET, NSET=LEFT
-1, 4, 5, 8
-*NSET, NSET=RIGHT
-2, 3, 6, 7
-*ELEMENT, TYPE=C3D8R, ELSET=BODY
+CUBE = UNIT_CUBE + """*ELEMENT, TYPE=C3D8R, ELSET=BODY
 1, 1, 2, 3, 4, 5, 6, 7, 8
 *SOLID SECTION, ELSET=BODY, MATERIAL=M
 *BOUNDARY
@@ -201,18 +186,5 @@ def ranks(run):
             check(f"{kind}: the same bits in {other.parent.name}/{other.name}", float(same.returncode), 0.0, 0.0)
 
 
-def main():
-    case, balocco, folder = sys.argv[1:4]
-    counter = iter(range(1000))
-
-    def run(text, count, place=None):  # one name: it is in the results
-        job = Job(case if place else f"{case}_{next(counter)}", balocco, str(count), pathlib.Path(folder) / (place or ""))
-        job.run(text)
-        return job
-
-    globals()[case](run)
-    sys.exit(1 if failures else 0)
-
-
 if __name__ == "__main__":
-    main()
+    run_case(globals())

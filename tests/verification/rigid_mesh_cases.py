@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """Rigid meshes as contact masters, beside analytical surfaces of the same shape: rigid_mesh_cases.py CASE BALOCCO FOLDER."""
 import math
-import sys
 
 import numpy as np
 
-from explicit_cases import Job, check, failures
+from explicit_cases import check, run_case
 
 OUTPUT = """*OUTPUT, FIELD, NUMBER INTERVAL=2, PRECISION=DOUBLE
 *NODE OUTPUT
@@ -173,18 +172,5 @@ def rolling_off(run):
     check("all of it is past the edge", float(rows[:, 0].min() > 3.5), 1.0, 0.0)
 
 
-def main():
-    case, balocco, folder = sys.argv[1:4]
-    counter = iter(range(1000))
-
-    def run(text, ranks):
-        job = Job(f"{case}_{next(counter)}", balocco, str(ranks), folder)
-        job.run(text)
-        return job
-
-    globals()[case](run)
-    sys.exit(1 if failures else 0)
-
-
 if __name__ == "__main__":
-    main()
+    run_case(globals())

@@ -1,11 +1,10 @@
 #!/usr/bin/env python3
 """Springs, dashpots and point masses against closed forms: spring_cases.py CASE BALOCCO FOLDER."""
 import math
-import sys
 
 import numpy as np
 
-from explicit_cases import Job, check, check_energy, failures
+from explicit_cases import check, check_energy, run_case
 
 HISTORY = """*OUTPUT, HISTORY, FREQUENCY=1
 *NODE OUTPUT, NSET=MASSES
@@ -197,18 +196,5 @@ def swinging_spring(run):
     check("mean length", radius.mean(), 1.0 + speed**2 / stiffness, 1e-4)
 
 
-def main():
-    case, balocco, folder = sys.argv[1:4]
-    counter = iter(range(1000))
-
-    def run(text, ranks):
-        job = Job(f"{case}_{next(counter)}", balocco, str(ranks), folder)
-        job.run(text)
-        return job
-
-    globals()[case](run)
-    sys.exit(1 if failures else 0)
-
-
 if __name__ == "__main__":
-    main()
+    run_case(globals())

@@ -10,13 +10,13 @@
 #include "elements/aligned_vector.hpp"
 #include "elements/beams/beam_kernel.hpp"
 #include "elements/element_group.hpp"
-#include "elements/rotary_inertia.hpp"
 #include "sections/beam_section.hpp"
 
 namespace balocco {
 
-/// History of an element: the energy dissipated by viscosity, its six strains, then those of the section's fibres.
-class BeamGroup final : public ElementGroup, public MaterialRotaryInertia {
+/// History of an element: the energy dissipated by viscosity, its six strains and viscous resultants, then what the section's fibres
+/// remember.
+class BeamGroup final : public ElementGroup {
  public:
   /// @throws InputError if the section lacks a material or stiffness, n1 runs along the axis or the nodes coincide.
   explicit BeamGroup(const GroupInput& input);

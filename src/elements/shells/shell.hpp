@@ -7,7 +7,6 @@
 
 #include "elements/aligned_vector.hpp"
 #include "elements/element_group.hpp"
-#include "elements/rotary_inertia.hpp"
 #include "elements/shells/shell_kernel.hpp"
 #include "elements/shells/shell_reference.hpp"
 #include "sections/shell_section.hpp"
@@ -18,7 +17,7 @@ namespace balocco {
 /// viscosity, and with stiffness-proportional damping the mean strains E11 E22 2E12 K11 K22 2K12. Integration points
 /// are counted layer by layer from SNEG to SPOS at each point of the surface in turn.
 template <int corners, int points>
-class ShellGroup final : public ElementGroup, public MaterialRotaryInertia {
+class ShellGroup final : public ElementGroup {
  public:
   explicit ShellGroup(const GroupInput& input);
 
@@ -99,13 +98,8 @@ class ShellGroup final : public ElementGroup, public MaterialRotaryInertia {
   void begin(int pack, Block& block, const ExplicitCycle& cycle) const;
   void finish(Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
 
-  /// Whether all points and layers of an element with that history have failed (*SHEAR FAILURE).
-  bool failed(std::span<const double> history) const {
-    return !failed_rows_.empty() && std::ranges::all_of(failed_rows_, [&](int row) { return history[row] > 0.0; });
-  }
-
   ShellSection section_;
-  std::vector<int> failed_rows_;                    // components of history that say so
+  std::vector<int> failed_rows_;                    // failure_rows()
   AlignedVector<double> record_;                    // Record::size packs per pack of elements
   std::vector<double> nodal_volume_, nodal_inertia_, plate_inertia_;  // of each corner of each element; the last not raised
 };

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/failure.hpp"
 #include "elements/shells/shell.hpp"
 #include "math/rotation.hpp"
 
@@ -212,7 +213,7 @@ ElementEnergies ShellGroup<corners, points>::energies(std::int32_t element, cons
   kernel.add_elastic(strain, elastic);
   add_hourglass<double>(data, strain, hourglass);
   ElementEnergies result;
-  const bool gone = failed(history);
+  const bool gone = has_failed(failed_rows_, history);
   for (int i = 0; i < corners && !gone; ++i) {
     result.strain += 0.5 * elastic.shear[i] * strain.shear[i];
     result.hourglass += 0.5 * elastic.drill[i] * strain.drill[i];

@@ -31,6 +31,13 @@ struct Falling {
   double& along() { return velocity[0]; }
   ContactPoint& point() { return contact.points[0]; }
 
+  /// Lies on the surface under a load, held by its multiplier alone, as statics leave it.
+  void press(double pressure) {
+    point() = {.multiplier = pressure, .closed = 1.0, .anchor = contact.position_of()};
+    contact.pair.choose_springs(contact.position.data(), contact.master, std::vector<bool>(contact.pair.size(), true), contact.points);
+    load = -pressure;
+  }
+
   /// Forces are rounded to this at the most.
   double quantum() const { return std::ldexp(1e3 * contact.k(), -50); }
 
@@ -114,10 +121,7 @@ TEST(StiffFriction, AMassThatSlidesLosesWhatIsBookedAndStops) {
 TEST(StiffFriction, APullBelowTheLimitMovesNothingOn) {
   Falling body(0.01, 1e-3, friction);
   const double pressure = 0.3;
-  body.point() = {.multiplier = pressure, .closed = 1.0, .anchor = body.contact.position_of()};
-  body.contact.pair.choose_springs(body.contact.position.data(), body.contact.master,
-                                   std::vector<bool>(body.contact.pair.size(), true), body.contact.points);
-  body.load = -pressure;
+  body.press(pressure);
   body.pull = 0.45 * friction * pressure;  // at once: the spring swings to twice its stretch at the most
   const double start = body.contact.position[0];
   for (int i = 0; i < 2000; ++i) body.cycle(i == 0);
@@ -130,10 +134,7 @@ TEST(StiffFriction, ADirectionThatIsHeldIsNotPushed) {
   // Dragged at 45 degrees across the direction that is held: Coulomb's force against the slip all the same.
   Falling body(0.01, 1e-3, friction);
   const double pressure = 0.3;
-  body.point() = {.multiplier = pressure, .closed = 1.0, .anchor = body.contact.position_of()};
-  body.contact.pair.choose_springs(body.contact.position.data(), body.contact.master,
-                                   std::vector<bool>(body.contact.pair.size(), true), body.contact.points);
-  body.load = -pressure;
+  body.press(pressure);
   body.freedom[0].held = 1;
   body.freedom[0].direction[0] = {std::sqrt(0.5), std::sqrt(0.5), 0};
   body.freedom[0].velocity[0] = 1.0;
