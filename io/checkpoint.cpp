@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <functional>
 
 #include "elements/element_type.hpp"
 #include "hdf5_file.hpp"
@@ -195,10 +196,24 @@ void write_bodies(const Hdf5File& file, const State& state) {
   file.write("/rigid_bodies", {state.rigid_bodies.size(), body_values}, motions);
 }
 
+/// The ranks that hold a constraint hold the same bits, the others zero.
+std::vector<double> all_multipliers(const Communicator& communicator, const State& state) {
+  std::vector<double> greatest(state.multiplier), least(state.multiplier.size());
+  std::ranges::transform(greatest, least.begin(), std::negate<>());
+  if (greatest.empty()) return greatest;
+  communicator.maximum(std::span<double>(greatest));
+  communicator.maximum(std::span<double>(least));
+  for (std::size_t row = 0; row < greatest.size(); ++row)
+    if (greatest[row] <= 0.0) greatest[row] = -least[row];
+  return greatest;
+}
+
 /// What belongs to no table; the format's name comes last and makes the file valid.
-void write_header(const std::string& path, const Model& model, const State& state, bool step_finished) {
+void write_header(const std::string& path, const Model& model, const State& state, const std::vector<double>& multipliers,
+                  bool step_finished) {
   Hdf5File file(path, Hdf5File::Mode::modify);
   write_bodies(file, state);
+  if (!multipliers.empty()) file.write("/multipliers", {multipliers.size(), 1}, multipliers);
   file.set_attribute("/", "format_version", format_version);
   file.set_attribute("/", "deck_sha256", model.deck_sha256);
   file.set_attribute("/", "total_time", state.total_time);
@@ -313,9 +328,10 @@ void write_checkpoint(const std::string& path, const Model& model, const Communi
   ParallelFile file(beside, communicator, ParallelFile::Mode::create);
   write_tables(file, model, communicator, domain, groups, state);
   file.close();
+  const auto multipliers = all_multipliers(communicator, state);
   communicator.together([&] {
     if (!communicator.is_root()) return;
-    write_header(beside, model, state, step_finished);
+    write_header(beside, model, state, multipliers, step_finished);
     synchronize(beside);
     if (std::rename(beside.c_str(), path.c_str()) != 0) {
       throw SystemError(fmt::format("{}: checkpoint cannot be put in place: {}", path, std::strerror(errno)));
@@ -333,6 +349,7 @@ void read_checkpoint(const std::string& path, const Model& model, const Communic
     const auto file = open_checkpoint(path);
     read_header(*file, path, model, state);
     read_bodies(*file, state);
+    if (file->exists("/multipliers")) state.multiplier = file->read("/multipliers");
   });
   ParallelFile file(path, communicator, ParallelFile::Mode::read);
   read_tables(file, model, communicator, domain, groups, state);

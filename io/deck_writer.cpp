@@ -328,6 +328,8 @@ void Writer::section(std::size_t row) {
       return spring("DASHPOT", section, row, set);
     case Section::Kind::shell:
       return shell(section, row, set);
+    case Section::Kind::connector:
+      return;  // no builder makes connectors
     case Section::Kind::rigid:
       return;  // *RIGID BODY names its elements
     case Section::Kind::membrane:

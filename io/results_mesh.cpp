@@ -26,6 +26,7 @@ const char* word(Section::Kind kind) {
     case Section::Kind::rotary_inertia: return "rotary inertia";
     case Section::Kind::spring: return "spring";
     case Section::Kind::dashpot: return "dashpot";
+    case Section::Kind::connector: return "connector";
     case Section::Kind::rigid: return "rigid";
   }
   return "";

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <limits>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "constraints/linkages.hpp"
 #include "element_graph.hpp"
 #include "elements/element_type.hpp"
 #include "elements/turning_nodes.hpp"
@@ -22,6 +24,13 @@ struct Partition {
   std::vector<std::int32_t> part;  // of each element
   std::vector<bool> reference;     // per model node: reference node of a rigid body
   std::vector<bool> turns;         // per model node
+  std::vector<std::int32_t> owner; // of each model node: lowest rank whose elements touch it, rank 0 where none does
+  /// Nodes of each linkage, all of which are on all of its ranks.
+  struct Shared {
+    std::vector<std::int32_t> nodes;
+    std::set<std::int32_t> ranks;
+  };
+  std::vector<Shared> linkages;
 
   std::span<const std::int32_t> nodes(std::size_t element) const {
     const auto& table = model.elements[elements[element].table];
@@ -46,21 +55,6 @@ std::vector<std::int32_t> partition_elements(const Graph& graph, const Communica
   return part;
 }
 
-Partition make_partition(const Model& model, const Communicator& communicator, const Partitioner& partitioner) {
-  Partition partition{model,
-                      graph_elements(model),
-                      {},
-                      std::vector<bool>(static_cast<std::size_t>(model.nodes.size())),
-                      turning_nodes(model)};
-  if (communicator.size() == 1)
-    partition.part.assign(partition.elements.size(), 0);
-  else
-    partition.part = partition_elements(element_graph(model, partition.elements), communicator, partitioner);
-  for (const auto& body : model.rigid_bodies) partition.reference[body.reference_node] = true;
-  return partition;
-}
-
-/// Lowest rank whose elements touch each node; rank 0 where none does.
 std::vector<std::int32_t> node_owners(const Partition& partition) {
   constexpr std::int32_t none = std::numeric_limits<std::int32_t>::max();
   std::vector<std::int32_t> owner(static_cast<std::size_t>(partition.model.nodes.size()), none);
@@ -71,14 +65,54 @@ std::vector<std::int32_t> node_owners(const Partition& partition) {
   return owner;
 }
 
+/// Every rank that computes a node of a linkage, or all of them where bodies take part, as bodies move on every rank.
+std::vector<Partition::Shared> shared_linkages(const Partition& partition, int ranks) {
+  std::vector<Partition::Shared> shared;
+  std::vector<std::vector<std::size_t>> linkages_of(static_cast<std::size_t>(partition.model.nodes.size()));
+  for (auto& linkage : find_linkages(partition.model)) {
+    auto& entry = shared.emplace_back(Partition::Shared{std::move(linkage.nodes), {}});
+    for (const auto node : entry.nodes) {
+      linkages_of[node].push_back(shared.size() - 1);
+      entry.ranks.insert(partition.owner[node]);
+    }
+    for (int rank = 0; rank < ranks && linkage.has_bodies; ++rank) entry.ranks.insert(rank);
+  }
+  if (shared.empty()) return shared;
+  for (std::size_t e = 0; e < partition.elements.size(); ++e)
+    for (const std::int32_t node : partition.nodes(e))
+      for (const auto index : linkages_of[node]) shared[index].ranks.insert(partition.part[e]);
+  return shared;
+}
+
+Partition make_partition(const Model& model, const Communicator& communicator, const Partitioner& partitioner) {
+  Partition partition{model,
+                      graph_elements(model),
+                      {},
+                      std::vector<bool>(static_cast<std::size_t>(model.nodes.size())),
+                      turning_nodes(model),
+                      {},
+                      {}};
+  if (communicator.size() == 1)
+    partition.part.assign(partition.elements.size(), 0);
+  else
+    partition.part = partition_elements(element_graph(model, partition.elements), communicator, partitioner);
+  for (const auto& body : model.rigid_bodies) partition.reference[body.reference_node] = true;
+  partition.owner = node_owners(partition);
+  partition.linkages = shared_linkages(partition, communicator.size());
+  return partition;
+}
+
 /// Fills node_row, local_node, owned and turning: nodes that turn first, along the Hilbert curve, reference nodes last.
 void number_nodes(const Partition& partition, int rank, Domain& domain) {
   const auto& nodes = partition.model.nodes;
-  const auto owner = node_owners(partition);
+  const auto& owner = partition.owner;
   std::vector<bool> present = partition.reference;
   for (std::size_t e = 0; e < partition.elements.size(); ++e)
     if (partition.part[e] == rank)
       for (const std::int32_t node : partition.nodes(e)) present[node] = true;
+  for (const auto& linkage : partition.linkages)
+    if (linkage.ranks.contains(rank))
+      for (const auto node : linkage.nodes) present[node] = true;
 
   struct Place {
     bool stays_upright, reference;
@@ -114,6 +148,11 @@ std::vector<SharedNodes> shared_nodes(const Partition& partition, const Communic
   for (int other = 0; other < communicator.size(); ++other)
     if (other != communicator.rank())
       for (const auto& body : partition.model.rigid_bodies) rows[other].push_back(body.reference_node);
+  for (const auto& linkage : partition.linkages) {
+    if (!linkage.ranks.contains(communicator.rank())) continue;
+    for (const auto other : linkage.ranks)
+      if (other != communicator.rank()) rows[other].insert(rows[other].end(), linkage.nodes.begin(), linkage.nodes.end());
+  }
 
   std::vector<SharedNodes> neighbours;
   for (auto& [rank, list] : rows) {

@@ -10,6 +10,7 @@
 #include "elements/failure.hpp"
 #include "explicit_scale.hpp"
 #include "loads/body_load.hpp"
+#include "math/rotation.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -63,6 +64,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
     for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair)
       contacts.emplace_back(model, static_cast<std::int32_t>(pair), domain);
   });
+  make_local_constraints();
   pressure_faces.resize(model.surfaces.size());
   const auto local = local_elements(model, element_groups);
   for (const auto& step : model.steps)
@@ -94,6 +96,31 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
   body_angular_acceleration.resize(model.rigid_bodies.size());
   index_rigid_nodes();
   place_rigid_nodes(current.position);
+}
+
+void Analysis::make_local_constraints() {
+  constraints = make_constraints(model);
+  first_constraint_row.push_back(0);
+  for (std::size_t i = 0; i < constraints.size(); ++i) {
+    first_constraint_row.push_back(first_constraint_row.back() + constraints[i]->rows());
+    const auto& nodes = constraints[i]->nodes();
+    if (std::ranges::all_of(nodes, [&](std::int32_t row) { return domain.local_node[row] >= 0; }))
+      local_constraints.push_back(static_cast<std::int32_t>(i));
+  }
+  current.multiplier.assign(static_cast<std::size_t>(first_constraint_row.back()), 0.0);
+}
+
+void Analysis::find_places(std::int32_t constraint, std::vector<NodePlace>& places) const {
+  places.clear();
+  for (const auto row : constraints[constraint]->nodes()) {
+    const auto node = domain.local_node[row];
+    auto& place = places.emplace_back();
+    std::copy_n(&current.position[4 * node], 3, place.position.component.begin());
+    if (node >= domain.turning) continue;
+    const double* q = &current.orientation[4 * node];
+    place.rotation = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
+    std::copy_n(&current.rotation[4 * node], 3, place.turn.component.begin());
+  }
 }
 
 void Analysis::sum_masses() {
@@ -283,6 +310,18 @@ void Analysis::apply_attachments(const Step& step) {
     }
   }
   index_rigid_nodes();
+}
+
+void Analysis::take_up_checkpoint() {
+  index_rigid_nodes();
+  current.multiplier.resize(static_cast<std::size_t>(first_constraint_row.back()), 0.0);
+  std::size_t next = 0;
+  for (std::size_t index = 0; index < constraints.size(); ++index) {
+    if (next < local_constraints.size() && local_constraints[next] == static_cast<std::int32_t>(index))
+      ++next;
+    else  // other ranks keep them
+      std::fill(current.multiplier.begin() + first_constraint_row[index], current.multiplier.begin() + first_constraint_row[index + 1], 0.0);
+  }
 }
 
 void Analysis::index_rigid_nodes() {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "communicator.hpp"
+#include "constraints/constraint.hpp"
 #include "constraints/nodal_directions.hpp"
 #include "domain.hpp"
 #include "elements/small_strain_output.hpp"
@@ -32,6 +33,9 @@ class Analysis : public ResultSource {
   Domain domain;
   std::vector<std::unique_ptr<ElementGroup>> element_groups;
   std::vector<RigidContact> contacts;              // per Model::contact_pairs
+  std::vector<std::unique_ptr<Constraint>> constraints;  // per Model::constraints
+  std::vector<std::int32_t> first_constraint_row;        // of each constraint in State::multiplier, and how many rows there are
+  std::vector<std::int32_t> local_constraints;           // those whose nodes are all on this rank, in order
   std::vector<std::unique_ptr<PressureFaces>> pressure_faces;  // per Model::surfaces, null where no step presses on it
   std::vector<double> nodal_mass;                  // per local node, summed over ranks (order-free), MASS elements included
   std::vector<double> nodal_damping;               // per local node: sum of alpha * mass
@@ -62,9 +66,12 @@ class Analysis : public ResultSource {
   /// What a body load acts on: the nodal mass, or reference volume, of its element set, on the nodes that this rank owns, zero
   /// elsewhere. Collective when it is first asked for.
   const std::vector<double>& loaded_share(const BodyLoad& load) const;
-  /// Rebuilds carrier() and tells the groups which elements act, from the state: after attachments, and after a checkpoint was
-  /// read.
+  /// Rebuilds what follows from the state, after a checkpoint was read.
+  void take_up_checkpoint();
+  /// Rebuilds carrier() and tells the groups which elements act, from the state: after attachments.
   void index_rigid_nodes();
+  /// Where the nodes of a local constraint are.
+  void find_places(std::int32_t constraint, std::vector<NodePlace>& places) const;
   /// Puts the carried nodes where their bodies are.
   void place_rigid_nodes(std::vector<double>& position) const;
 
@@ -98,6 +105,7 @@ class Analysis : public ResultSource {
   bool stays_linear(const Step& step) const;
   void leave_linear_geometry(const Step& step);
   SmallStrainOutput& small_strain() const;
+  void make_local_constraints();
   void sum_masses();
   template <class Visit>
   void for_each_energies(std::size_t group, Visit visit) const;

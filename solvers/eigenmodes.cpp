@@ -22,8 +22,8 @@ void use_symmetric_factorization(KSP solver) {
 
 }  // namespace
 
-Eigenmodes::Eigenmodes(Mat stiffness, Mat mass, const Communicator& communicator)
-    : stiffness_(stiffness), mass_(mass), communicator_(communicator) {
+Eigenmodes::Eigenmodes(Mat stiffness, Mat mass, int multipliers, const Communicator& communicator)
+    : stiffness_(stiffness), mass_(mass), multipliers_(multipliers), communicator_(communicator) {
   set_factorization_defaults();
 }
 
@@ -59,7 +59,7 @@ int Eigenmodes::count_below(double value) {
   petsc(MatGetInertia(factor, &negative, nullptr, nullptr));
   if (reason == KSP_DIVERGED_PC_FAILED)
     throw AnalysisError(fmt::format("the stiffness shifted by {:.6g} cannot be factorised; choose another shift or bound", value));
-  return static_cast<int>(negative);
+  return static_cast<int>(negative) - multipliers_;  // each independent constraint turns one eigenvalue into a pair of both signs
 }
 
 std::vector<EigenPair> Eigenmodes::nearest(double shift, int number) {

@@ -24,8 +24,9 @@ struct EigenPair {
 
 class Eigenmodes {
  public:
-  /// `stiffness` symmetric; `mass` symmetric, not negative, perhaps singular. Collective.
-  Eigenmodes(Mat stiffness, Mat mass, const Communicator& communicator);
+  /// `stiffness` symmetric, with as many rows of independent constraints as there are `multipliers`; `mass` symmetric, not negative,
+  /// perhaps singular. Collective.
+  Eigenmodes(Mat stiffness, Mat mass, int multipliers, const Communicator& communicator);
 
   /// Eigenvalues below `value`, which is none itself. @throws AnalysisError if the factorisation fails. Collective.
   int count_below(double value);
@@ -39,6 +40,7 @@ class Eigenmodes {
   std::vector<EigenPair> nearest(double shift, int number);
 
   Mat stiffness_, mass_;
+  int multipliers_;
   const Communicator& communicator_;
 };
 

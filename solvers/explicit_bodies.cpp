@@ -302,30 +302,40 @@ Vector6 RigidDynamics::prescribed(const Analysis& analysis, const Body& body, co
   return velocity;
 }
 
-void RigidDynamics::solve(const RigidBodyState& state, Body& body, const Vector6& old_velocity, const Instant& instant,
-                          const Vector6& wanted) const {
+RigidDynamics::Response RigidDynamics::solve(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity,
+                                             const Instant& instant, const Vector6& wanted) const {
   const auto rotation = rotation_matrix(state);
   const Matrix6 mass = mass_matrix(body, rotation);
   Vector6 known = Vector6::Zero();
   for (int dof = 0; dof < 6; ++dof)
     if (body.condition[dof] != nullptr) known[dof] = (wanted[dof] - old_velocity[dof]) / instant.average();
   const DefiniteSolver<6> factors(reduced(body, mass));
-  body.spin = vector(state.angular_velocity);
+  Response response;
+  response.spin = vector(state.angular_velocity);
   Vector6 load;
   // Gyroscopic terms belong to the spin at the instant, which depends on the acceleration sought: three corrections
   // take the error to (spin x increment)^4, below rounding for any increment that resolves the motion.
   for (int correction = 0; correction < 3; ++correction) {
-    load = body.force - inertia_forces(body, rotation, body.spin);
+    load = force - inertia_forces(body, rotation, response.spin);
     Vector6 right = load - mass * known;
     for (int dof = 0; dof < 6; ++dof)
       if (body.condition[dof] != nullptr) right[dof] = known[dof];
-    body.acceleration = factors.solve(right);
-    const auto change = global(body.axes, body.acceleration).rotation;
-    body.spin = vector(state.angular_velocity) + 0.5 * instant.previous * change;
+    response.acceleration = factors.solve(right);
+    const auto change = global(body.axes, response.acceleration).rotation;
+    response.spin = vector(state.angular_velocity) + 0.5 * instant.previous * change;
   }
-  body.reaction = mass * body.acceleration - load;
+  response.reaction = mass * response.acceleration - load;
   for (int dof = 0; dof < 6; ++dof)
-    if (body.condition[dof] == nullptr) body.reaction[dof] = 0.0;
+    if (body.condition[dof] == nullptr) response.reaction[dof] = 0.0;
+  return response;
+}
+
+Vector6 RigidDynamics::new_velocity(const Body& body, const Vector6& old_velocity, const Response& response, const Instant& instant,
+                                    const Vector6& wanted) const {
+  Vector6 velocity = old_velocity + instant.average() * response.acceleration;
+  for (int dof = 0; dof < 6; ++dof)
+    if (body.condition[dof] != nullptr) velocity[dof] = wanted[dof];
+  return velocity;
 }
 
 void RigidDynamics::accelerate(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments) {
@@ -334,10 +344,11 @@ void RigidDynamics::accelerate(Analysis& analysis, const Instant& instant, const
     auto& state = analysis.current.rigid_bodies[i];
     const auto now = motion(analysis, body, i);
     const Vector6 wanted = prescribed(analysis, body, now, instant);
-    solve(state, body, now.velocity, instant, wanted);
-    Vector6 velocity = now.velocity + instant.average() * body.acceleration;
-    for (int dof = 0; dof < 6; ++dof)
-      if (body.condition[dof] != nullptr) velocity[dof] = wanted[dof];
+    const auto response = solve(state, body, body.force, now.velocity, instant, wanted);
+    body.acceleration = response.acceleration;
+    body.reaction = response.reaction;
+    body.spin = response.spin;
+    const auto velocity = new_velocity(body, now.velocity, response, instant, wanted);
     const auto [translation, rotation] = global(body.axes, velocity);
     state.velocity = translation.component;
     state.angular_velocity = rotation.component;

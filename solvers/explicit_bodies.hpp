@@ -54,6 +54,17 @@ class RigidDynamics {
   /// Reactions, their work ahead, and accelerations of bodies and of their nodes, for output.
   void add_to_output(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments) const;
 
+  /// What linkages (explicit_linkages.hpp) ask of a body, all in global directions, translations first. Accelerations by forces and
+  /// moments at the reference node:
+  Matrix6 response(const Analysis& analysis, std::size_t body) const;
+  /// The velocity over the next increment that accelerate() would give it under a force more;
+  Vector6 predicted_velocity(const Analysis& analysis, std::size_t body, const Instant& instant, const Vector6& more) const;
+  /// and what it adds to the forces and moments.
+  void add_force(std::size_t body, const Vector6& force);
+  Vector6 force(std::size_t body) const;
+  static Vector6 velocity(const Analysis& analysis, std::size_t body);
+  void set_velocity(Analysis& analysis, std::size_t body, const Vector6& velocity) const;
+
   /// Greatest acceleration per force at a local node that a body carries, in any direction, with its free degrees of freedom.
   double mobility(const Analysis& analysis, std::size_t body, std::int32_t node) const;
   /// Greatest angular acceleration per moment, likewise.
@@ -88,6 +99,11 @@ class RigidDynamics {
   struct Motion {
     Vector6 displacement, velocity;
   };
+  /// To forces, along the degrees of freedom; the spin (global) is that of the instant.
+  struct Response {
+    Vector6 acceleration, reaction;
+    Vector3<double> spin;
+  };
 
   void sum_inertia(const Analysis& analysis);
   void add_rotary_inertia(const Analysis& analysis);
@@ -98,8 +114,10 @@ class RigidDynamics {
   Vector6 inertia_forces(const Body& body, const Matrix3<double>& rotation, const Vector3<double>& spin) const;
   Motion motion(const Analysis& analysis, const Body& body, std::size_t index) const;
   Vector6 prescribed(const Analysis& analysis, const Body& body, const Motion& motion, const Instant& instant) const;
-  void solve(const RigidBodyState& state, Body& body, const Vector6& old_velocity, const Instant& instant,
-             const Vector6& wanted) const;
+  Response solve(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity, const Instant& instant,
+                 const Vector6& wanted) const;
+  Vector6 new_velocity(const Body& body, const Vector6& old_velocity, const Response& response, const Instant& instant,
+                       const Vector6& wanted) const;
   void set_node_velocities(Analysis& analysis, std::size_t index, double increment) const;
   bool is_held_still(const Analysis& analysis, std::size_t index, const Instant& instant) const;
   void add_body_forces(const Analysis& analysis, const NodalForces& forces, std::size_t index, std::span<ExactSum, 6> sums) const;

@@ -56,59 +56,86 @@ bool GyroscopicNodes::contains(std::int32_t node) const {
   return std::ranges::find(nodes_, node, &Node::node) != nodes_.end();
 }
 
-void GyroscopicNodes::solve(Node& node, const Analysis& analysis, const Vector3<double>& torque,
-                            const Vector3<double>& old_spin, const std::array<double, 3>& wanted,
-                            const Instant& instant) const {
-  // Everything along the degrees of freedom.
+/// Along the degrees of freedom, as the node stands.
+Matrix3<double> GyroscopicNodes::inertia(const Node& node, const Analysis& analysis) const {
   const double* const q = &analysis.current.orientation[4 * node.node];
   const auto turn = node.axes * rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
-  const auto inertia = turn * node.tensor * transpose(turn);
-  Eigen::Matrix3d reduced;
-  Vector3<double> known{};
+  return turn * node.tensor * transpose(turn);
+}
+
+/// Rows of prescribed degrees of freedom become identities.
+Eigen::Matrix3d GyroscopicNodes::reduced(const Node& node, const Matrix3<double>& inertia) {
+  Eigen::Matrix3d result;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) reduced(i, j) = inertia(i, j);
+    for (int j = 0; j < 3; ++j) result(i, j) = inertia(i, j);
   for (int dof = 0; dof < 3; ++dof) {
     if (node.condition[dof] == nullptr) continue;
-    known[dof] = (wanted[dof] - old_spin[dof]) / instant.average();
-    reduced.row(dof).setZero();
-    reduced.col(dof).setZero();
-    reduced(dof, dof) = 1.0;
+    result.row(dof).setZero();
+    result.col(dof).setZero();
+    result(dof, dof) = 1.0;
   }
-  const Eigen::PartialPivLU<Eigen::Matrix3d> factors(reduced);
+  return result;
+}
+
+GyroscopicNodes::Motion GyroscopicNodes::solve(const Node& node, const Analysis& analysis, const Step& step, const Vector3<double>& moment,
+                                               const Instant& instant) const {
+  Motion motion;
+  const auto& state = analysis.current;
+  motion.old_spin = node.axes * vector(&state.angular_velocity[4 * node.node]);
+  const auto torque = node.axes * moment, rotation = node.axes * vector(&state.rotation[4 * node.node]);
+  const auto mass = inertia(node, analysis);
+  Vector3<double> known{}, wanted{};
+  for (int dof = 0; dof < 3; ++dof) {
+    if (node.condition[dof] == nullptr) continue;
+    wanted[dof] = prescribed_velocity(analysis.model, step, *node.condition[dof], instant, {rotation[dof], motion.old_spin[dof]});
+    known[dof] = (wanted[dof] - motion.old_spin[dof]) / instant.average();
+  }
+  const Eigen::PartialPivLU<Eigen::Matrix3d> factors(reduced(node, mass));
   // The gyroscopic moment belongs to the spin at the instant, which depends on the acceleration sought: three corrections
   // take the error to (spin x increment)^4, as for rigid bodies.
-  Vector3<double> spin = old_spin, load{};
+  Vector3<double> spin = motion.old_spin, load{};
   for (int correction = 0; correction < 3; ++correction) {
-    load = torque - cross(spin, inertia * spin);
-    const auto rest = load - inertia * known;
+    load = torque - cross(spin, mass * spin);
+    const auto rest = load - mass * known;
     Eigen::Vector3d right;
     for (int dof = 0; dof < 3; ++dof) right[dof] = node.condition[dof] != nullptr ? known[dof] : rest[dof];
     const Eigen::Vector3d solution = factors.solve(right);
-    node.acceleration = {{solution[0], solution[1], solution[2]}};
-    spin = old_spin + 0.5 * instant.previous * node.acceleration;
+    motion.acceleration = {{solution[0], solution[1], solution[2]}};
+    spin = motion.old_spin + 0.5 * instant.previous * motion.acceleration;
   }
-  node.reaction = inertia * node.acceleration - load;
-  for (int dof = 0; dof < 3; ++dof)
-    if (node.condition[dof] == nullptr) node.reaction[dof] = 0.0;
+  motion.reaction = mass * motion.acceleration - load;
+  motion.new_spin = motion.old_spin + instant.average() * motion.acceleration;
+  for (int dof = 0; dof < 3; ++dof) {
+    if (node.condition[dof] != nullptr) motion.new_spin[dof] = wanted[dof];
+    if (node.condition[dof] == nullptr) motion.reaction[dof] = 0.0;
+  }
+  return motion;
+}
+
+Matrix3<double> GyroscopicNodes::response(const Analysis& analysis, std::int32_t node) const {
+  const auto& of = *std::ranges::find(nodes_, node, &Node::node);
+  Eigen::Matrix3d inverse = reduced(of, inertia(of, analysis)).inverse();
+  Matrix3<double> result{};
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j)
+      if (of.condition[i] == nullptr && of.condition[j] == nullptr) result(i, j) = inverse(i, j);
+  return transpose(of.axes) * result * of.axes;
+}
+
+Vector3<double> GyroscopicNodes::predicted_spin(const Analysis& analysis, const Step& step, const Instant& instant, std::int32_t node,
+                                                const Vector3<double>& moment) const {
+  const auto& of = *std::ranges::find(nodes_, node, &Node::node);
+  return transpose(of.axes) * solve(of, analysis, step, moment, instant).new_spin;
 }
 
 void GyroscopicNodes::accelerate(Analysis& analysis, const Step& step, const Instant& instant, const double* moment) {
-  auto& state = analysis.current;
   for (auto& node : nodes_) {
-    double* const spin = &state.angular_velocity[4 * node.node];
-    const auto old_spin = node.axes * vector(spin), rotation = node.axes * vector(&state.rotation[4 * node.node]);
-    std::array<double, 3> wanted{};
-    for (int dof = 0; dof < 3; ++dof)
-      if (const auto* condition = node.condition[dof])
-        wanted[dof] = prescribed_velocity(analysis.model, step, *condition, instant, {rotation[dof], old_spin[dof]});
-    solve(node, analysis, node.axes * vector(moment + 4 * static_cast<std::ptrdiff_t>(node.node)), old_spin, wanted,
-          instant);
-    auto new_spin = old_spin + instant.average() * node.acceleration;
-    for (int dof = 0; dof < 3; ++dof)
-      if (node.condition[dof] != nullptr) new_spin[dof] = wanted[dof];
-    state.nodal_work[node.node].external +=
-        0.5 * dot(node.reaction, instant.previous * old_spin + instant.next * new_spin);
-    std::ranges::copy((transpose(node.axes) * new_spin).component, spin);
+    const auto motion = solve(node, analysis, step, vector(moment + 4 * static_cast<std::ptrdiff_t>(node.node)), instant);
+    node.acceleration = motion.acceleration;
+    node.reaction = motion.reaction;
+    analysis.current.nodal_work[node.node].external +=
+        0.5 * dot(node.reaction, instant.previous * motion.old_spin + instant.next * motion.new_spin);
+    std::ranges::copy((transpose(node.axes) * motion.new_spin).component, &analysis.current.angular_velocity[4 * node.node]);
   }
 }
 

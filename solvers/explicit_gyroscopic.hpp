@@ -21,6 +21,10 @@ class GyroscopicNodes {
   bool contains(std::int32_t node) const;
   /// Angular accelerations under `moment` (4 a node), reactions and their work; then the spins over the next increment.
   void accelerate(Analysis& analysis, const Step& step, const Instant& instant, const double* moment);
+  /// What linkages (explicit_linkages.hpp) ask: angular accelerations by moments, and the spin over the next increment under a moment.
+  Matrix3<double> response(const Analysis& analysis, std::int32_t node) const;
+  Vector3<double> predicted_spin(const Analysis& analysis, const Step& step, const Instant& instant, std::int32_t node,
+                                 const Vector3<double>& moment) const;
   /// Adds reactions, angular accelerations and work ahead to the analysis' arrays for output.
   void add_to_output(Analysis& analysis, const Instant& instant) const;
 
@@ -33,8 +37,13 @@ class GyroscopicNodes {
     std::array<const BoundaryCondition*, 3> condition{};
     Vector3<double> acceleration{}, reaction{};          // along the degrees of freedom, at the instant
   };
-  void solve(Node& node, const Analysis& analysis, const Vector3<double>& torque, const Vector3<double>& old_spin,
-             const std::array<double, 3>& wanted, const Instant& instant) const;
+  /// Along the degrees of freedom.
+  struct Motion {
+    Vector3<double> acceleration{}, reaction{}, old_spin{}, new_spin{};
+  };
+  Matrix3<double> inertia(const Node& node, const Analysis& analysis) const;
+  static Eigen::Matrix3d reduced(const Node& node, const Matrix3<double>& inertia);
+  Motion solve(const Node& node, const Analysis& analysis, const Step& step, const Vector3<double>& moment, const Instant& instant) const;
 
   std::vector<Node> nodes_;
 };

@@ -26,6 +26,7 @@ void compute_forces(ExplicitStep& cycle) {
 void start(ExplicitStep& cycle) {
   cycle.prepare_start();
   cycle.log_resting_elements();
+  cycle.log_dependent_constraints();
   compute_forces(cycle);
   cycle.add_stiff_contact();
   cycle.sum_body_forces();
@@ -33,6 +34,7 @@ void start(ExplicitStep& cycle) {
   cycle.add_damping();
   cycle.sum_body_forces();
   cycle.choose_increment();
+  cycle.satisfy_constraints();
   cycle.update_velocities();
   cycle.fill_output();
   cycle.start_energy_balance();
@@ -51,6 +53,7 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
     cycle.choose_increment();
     cycle.add_stiff_contact();
     cycle.sum_body_forces();
+    cycle.satisfy_constraints();
     cycle.update_velocities();
     if (!cycle.observe()) return Outcome::stopped;
   }

@@ -143,6 +143,11 @@ void NodalConstraints::find_reactions(const Analysis& analysis, const Instant& i
   }
 }
 
+void NodalConstraints::add_to_reactions(std::int32_t node, const Point& force) {
+  for (auto& constraint : std::ranges::equal_range(constraints_, node, {}, &Constraint::node))
+    constraint.reaction -= component(force.data(), constraint.direction);
+}
+
 void NodalConstraints::enforce(Analysis& analysis, const Instant& instant) const {
   for (const auto& constraint : constraints_) {
     double* const entry = &velocity(analysis)[4 * constraint.node];

@@ -53,6 +53,8 @@ class NodalConstraints {
   void find_velocities(const Analysis& analysis, const Step& step, const Instant& instant);
   /// then the forces that constraints exert for it.
   void find_reactions(const Analysis& analysis, const Instant& instant, const double* force);
+  /// Forces more on a node (of constraints, which find_reactions() did not know).
+  void add_to_reactions(std::int32_t node, const Point& force);
   /// After velocities changed: sets the prescribed components and adds the work of the reactions.
   void enforce(Analysis& analysis, const Instant& instant) const;
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "constraint_report.hpp"
 #include "explicit_step.hpp"
 #include "model/diagnostics.hpp"
 
@@ -15,16 +16,17 @@ void ExplicitStep::fill_output() {
     auto& acceleration = analysis_.acceleration;
     analysis_.output_increment = last_increment_ > 0.0 ? last_increment_ : next_increment_;
     std::fill(analysis_.reaction.begin(), analysis_.reaction.end(), 0.0);
-    for (std::size_t node = 0; node < inverse_mass_.size(); ++node)
-      for (std::size_t c = 0; c < 3; ++c) acceleration[4 * node + c] = inverse_mass_[node] * force_[4 * node + c];
+    for (std::size_t node = 0; node < inverse_.mass.size(); ++node)
+      for (std::size_t c = 0; c < 3; ++c) acceleration[4 * node + c] = inverse_.mass[node] * force_[4 * node + c];
     std::fill(analysis_.reaction_moment.begin(), analysis_.reaction_moment.end(), 0.0);
-    for (std::size_t node = 0; node < inverse_rotary_inertia_.size(); ++node)
+    for (std::size_t node = 0; node < inverse_.rotary.size(); ++node)
       for (std::size_t c = 0; c < 3; ++c)
-        analysis_.angular_acceleration[4 * node + c] = inverse_rotary_inertia_[node] * moment_[4 * node + c];
+        analysis_.angular_acceleration[4 * node + c] = inverse_.rotary[node] * moment_[4 * node + c];
     std::fill(analysis_.work_ahead.begin(), analysis_.work_ahead.end(), NodalWork{});
     add_half_work(next_increment_, analysis_.work_ahead);
     constraints_.add_to_output(analysis_, instant());
     rotation_constraints_.add_to_output(analysis_, instant());
+    linkages_.add_to_output(analysis_);
     gyroscopic_.add_to_output(analysis_, instant());
     bodies_.add_to_output(analysis_, instant(), moments_);
   });
@@ -93,6 +95,8 @@ void ExplicitStep::check_energy_balance() {
 
 void ExplicitStep::log_balance() {
   const auto& domain = analysis_.domain;
+  auto force = force_, moment = moment_;
+  linkages_.add_resting_forces(analysis_, {force.data(), moment.data()});
   const auto balance = bodies_.balance();
   std::array<double, 2> sums{};  // squares: unbalanced; loads and reactions. Moments count with 1 / lever.
   const auto add = [&](std::vector<double> vector, const std::vector<double>& external, const NodalConstraints& constraints,
@@ -108,8 +112,8 @@ void ExplicitStep::log_balance() {
       }
     }
   };
-  add(force_, external_force_, constraints_, inverse_mass_, [](std::size_t) { return 1.0; });
-  add(moment_, external_moment_, rotation_constraints_, inverse_rotary_inertia_,
+  add(force, external_force_, constraints_, linkages_.inverse().mass, [](std::size_t) { return 1.0; });
+  add(moment, external_moment_, rotation_constraints_, linkages_.inverse().rotary,
       [&](std::size_t node) { return 1.0 / scale_.lever[node]; });
   analysis_.communicator.sum(std::span<double>(sums));
   const double residual = std::sqrt(sums[0] + balance.unbalanced);
@@ -119,6 +123,10 @@ void ExplicitStep::log_balance() {
       fmt::format("step {} starts with |f_int + f_contact - f_ext| / |f_ext| = {:.3e} (|f_ext| = {:.6g}, loads and "
                   "reactions)",
                   step_.name, residual / external, external));
+}
+
+void ExplicitStep::log_dependent_constraints() const {
+  balocco::log_dependent_constraints(analysis_, of_all_ranks(analysis_, linkages_.dependent_rows()), observer_);
 }
 
 void ExplicitStep::log_resting_elements() const {

@@ -18,18 +18,22 @@ template <class Visit>
 void for_each_restraint(const Analysis& analysis, Visit visit) {
   for (const auto& group : analysis.element_groups) {
     const auto kind = analysis.model.sections[group->section()].kind;
-    if (kind != Section::Kind::spring && kind != Section::Kind::dashpot) continue;
+    if (kind != Section::Kind::spring && kind != Section::Kind::dashpot && kind != Section::Kind::connector) continue;
     for (std::int32_t element = 0; element < group->size(); ++element) visit(*group, element);
   }
 }
 
-bool turns(const ElementGroup& group) { return group.freedoms_per_node() == 6; }
+Restraint restraint_of(const ElementGroup& group, std::int32_t element, bool rotations) {
+  return rotations ? group.rotary_restraint(element) : group.restraint(element);
+}
+
+bool restrains(const Restraint& of) { return of.stiffness > 0.0 || of.viscosity > 0.0 || of.force > 0.0; }
 
 /// Sums over all elements that act on displacements, or on rotations, for the first `count` local nodes.
 std::vector<Restraint> summed(const Analysis& analysis, std::int32_t count, bool rotations) {
   const auto for_each_of_kind = [&](auto visit) {
     for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
-      if (turns(group) == rotations) visit(group.restraint(element), group.nodes(element));
+      if (const auto of = restraint_of(group, element, rotations); restrains(of)) visit(of, group.nodes(element));
     });
   };
   double largest = 0.0;
@@ -95,27 +99,33 @@ NodalRestraints nodal_restraints(const Analysis& analysis) {
   return {summed(analysis, analysis.domain.size(), false), summed(analysis, analysis.domain.turning, true)};
 }
 
-RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies) {
+RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies,
+                               ExplicitLinkages& linkages) {
   const auto mover = [&](std::int32_t node) { return moving_body(analysis, node); };
   const auto turner = [&](std::int32_t node) { return analysis.turning_body(node); };
   const auto pulled = body_restraints(analysis, restraints.translation, mover);
   const auto twisted = body_restraints(analysis, restraints.rotation, turner);
   const auto rotary = rotary_mobilities(analysis);
+  const auto mobility_of_node = [&](std::int32_t node, bool rotates) {
+    const double mass = analysis.nodal_mass[node];
+    if (rotates ? rotary[node] > 0.0 : mass > 0.0) return rotates ? rotary[node] : 1.0 / mass;
+    return linkages.mobility(analysis, node, rotates);
+  };
   RestraintBound largest;
   for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
     RestraintBound bound;
-    for (const auto node : group.nodes(element)) {
-      const bool rotates = turns(group);
-      const auto body = rotates ? turner(node) : mover(node);
-      const Restraint& total = rotates ? (body >= 0 ? twisted[body] : restraints.rotation[node])
-                                       : (body >= 0 ? pulled[body] : restraints.translation[node]);
-      const double mass = analysis.nodal_mass[node];
-      const double mobility = body >= 0 ? (rotates ? bodies.rotary_mobility(analysis, body) : bodies.mobility(analysis, body, node))
-                              : rotates ? rotary[node]
-                              : mass > 0.0 ? 1.0 / mass
-                                           : 0.0;
-      bound.omega_square += total.stiffness * mobility;
-      bound.rate += total.viscosity * mobility;
+    for (const bool rotates : {false, true}) {
+      if (!restrains(restraint_of(group, element, rotates))) continue;
+      for (const auto node : group.nodes(element)) {
+        const auto body = rotates ? turner(node) : mover(node);
+        const Restraint& total = rotates ? (body >= 0 ? twisted[body] : restraints.rotation[node])
+                                         : (body >= 0 ? pulled[body] : restraints.translation[node]);
+        const double mobility = body < 0   ? mobility_of_node(node, rotates)
+                                : rotates ? bodies.rotary_mobility(analysis, body)
+                                          : bodies.mobility(analysis, body, node);
+        bound.omega_square += total.stiffness * mobility;
+        bound.rate += total.viscosity * mobility;
+      }
     }
     largest.omega_square = std::max(largest.omega_square, bound.omega_square);
     largest.rate = std::max(largest.rate, bound.rate);
@@ -123,7 +133,7 @@ RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& 
   return {analysis.communicator.maximum(largest.omega_square), analysis.communicator.maximum(largest.rate)};
 }
 
-void refuse_massless_restraints(const Analysis& analysis, const Step& step) {
+void refuse_massless_restraints(const Analysis& analysis, const Step& step, const ExplicitLinkages& linkages) {
   const auto size = static_cast<std::size_t>(analysis.domain.size());
   std::vector<bool> held(size), held_rotation(size);
   for (const auto& condition : step.boundary)
@@ -131,19 +141,20 @@ void refuse_massless_restraints(const Analysis& analysis, const Step& step) {
       (condition.dof < 3 ? held : held_rotation)[node] = true;
   const auto rotary = rotary_mobilities(analysis);
   for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
-    for (const auto node : group.nodes(element)) {
-      const bool rotates = turns(group);
-      if (rotates ? analysis.turning_body(node) >= 0 || held_rotation[node] || rotary[node] > 0.0
-                  : moving_body(analysis, node) >= 0 || held[node] || analysis.nodal_mass[node] > 0.0)
-        continue;
-      const auto& table = analysis.model.elements[group.table()];
-      throw InputError(fmt::format(
-          "{}: error: *ELEMENT: {} {} {} node {}, which has no {} and is not held, so that an explicit step cannot {} it; give it a "
-          "{} element or constrain it",
-          analysis.model.where(table.location[group.row(element)]), table.type->name, table.id[group.row(element)],
-          rotates ? "twists" : "pulls at", analysis.model.nodes.id[analysis.domain.node_row[node]],
-          rotates ? "rotary inertia" : "mass", rotates ? "turn" : "move", rotates ? "ROTARYI" : "MASS"));
-    }
+    for (const bool rotates : {false, true})
+      for (const auto node : group.nodes(element)) {
+        if (!restrains(restraint_of(group, element, rotates))) continue;
+        if (rotates ? analysis.turning_body(node) >= 0 || held_rotation[node] || rotary[node] > 0.0 || linkages.turns(node)
+                    : moving_body(analysis, node) >= 0 || held[node] || analysis.nodal_mass[node] > 0.0 || linkages.moves(node))
+          continue;
+        const auto& table = analysis.model.elements[group.table()];
+        throw InputError(fmt::format(
+            "{}: error: *ELEMENT: {} {} {} node {}, which has no {} and is not held, so that an explicit step cannot {} it; give it a "
+            "{} element or constrain it",
+            analysis.model.where(table.location[group.row(element)]), table.type->name, table.id[group.row(element)],
+            rotates ? "twists" : "pulls at", analysis.model.nodes.id[analysis.domain.node_row[node]],
+            rotates ? "rotary inertia" : "mass", rotates ? "turn" : "move", rotates ? "ROTARYI" : "MASS"));
+      }
   });
 }
 

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include "explicit_bodies.hpp"
+#include "explicit_linkages.hpp"
 
 namespace balocco {
 
@@ -19,9 +19,10 @@ NodalRestraints nodal_restraints(const Analysis& analysis);
 
 /// Each element takes of a node's mass (or of a rigid body's) the share that its stiffness has in all of them there, so that the bound
 /// is sum K / m over its nodes: exact for one spring between two masses, and for long chains. Collective.
-RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies);
+RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies,
+                               ExplicitLinkages& linkages);
 
 /// Refuses nodes that a spring or dashpot would have to move without a mass, or turn without a rotary inertia. @throws InputError
-void refuse_massless_restraints(const Analysis& analysis, const Step& step);
+void refuse_massless_restraints(const Analysis& analysis, const Step& step, const ExplicitLinkages& linkages);
 
 }  // namespace balocco

@@ -32,12 +32,16 @@ T make_together(const Analysis& analysis, Arguments... arguments) {
   return std::move(*made);
 }
 
-/// Zero for nodes that rigid bodies move and for those without mass.
-std::vector<double> inverse_masses(const Analysis& analysis) {
-  std::vector<double> inverse(static_cast<std::size_t>(analysis.domain.size()), 0.0);
+InverseInertia inverse_inertia(const Analysis& analysis, const GyroscopicNodes& gyroscopic) {
+  InverseInertia inverse;
+  const auto of = [](double inertia) { return inertia > 0.0 ? 1.0 / inertia : 0.0; };
   for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
     const bool moved_by_body = analysis.carrier(node) >= 0 || analysis.reference_of(node) >= 0;
-    if (!moved_by_body && analysis.nodal_mass[node] > 0.0) inverse[node] = 1.0 / analysis.nodal_mass[node];
+    inverse.mass.push_back(moved_by_body ? 0.0 : of(analysis.nodal_mass[node]));
+  }
+  for (std::int32_t node = 0; node < analysis.domain.turning; ++node) {
+    const bool turned_otherwise = analysis.turning_body(node) >= 0 || gyroscopic.contains(node);
+    inverse.rotary.push_back(turned_otherwise ? 0.0 : of(analysis.rotary_inertia[node]));
   }
   return inverse;
 }
@@ -58,15 +62,16 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       total_time_at_start_(time_before(analysis.model, analysis.current.step)),
       bodies_(analysis, step),
       failures_(analysis.element_groups),
-      restraints_(nodal_restraints(analysis)),
-      restraint_bound_(restraint_bound(analysis, restraints_, bodies_)),
-      scale_(force_scale(analysis, step, restraints_, restraint_bound_)),
-      control_(step),
       constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::translation)),
       rotation_constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::rotation)),
       gyroscopic_(make_together<GyroscopicNodes>(analysis, std::ref(step))),
-      inverse_mass_(inverse_masses(analysis)),
-      contact_(analysis, step, constraints_, bodies_, inverse_mass_),
+      inverse_(inverse_inertia(analysis, gyroscopic_)),
+      linkages_(analysis, step, constraints_, rotation_constraints_, gyroscopic_, bodies_, inverse_),
+      restraints_(nodal_restraints(analysis)),
+      restraint_bound_(restraint_bound(analysis, restraints_, bodies_, linkages_)),
+      scale_(force_scale(analysis, step, restraints_, restraint_bound_)),
+      control_(step),
+      contact_(analysis, step, constraints_, bodies_, inverse_.mass),
       moments_(analysis.model.rigid_bodies.size()) {
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
   force_.assign(4 * (nodes + 1), 0.0);
@@ -76,11 +81,6 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
   for (std::size_t node = 0; node < scale_.moment_constant.size(); ++node)
     moment_[4 * node + 3] = scale_.moment_constant[node];
   external_moment_ = moment_;
-  for (std::int32_t node = 0; node < analysis.domain.turning; ++node) {
-    const bool turned_otherwise = analysis.turning_body(node) >= 0 || gyroscopic_.contains(node);
-    inverse_rotary_inertia_.push_back(
-        turned_otherwise || !(analysis.rotary_inertia[node] > 0.0) ? 0.0 : 1.0 / analysis.rotary_inertia[node]);
-  }
   const bool damped =
       std::any_of(analysis.nodal_damping.begin(), analysis.nodal_damping.end(), [](double c) { return c > 0.0; });
   if (analysis.communicator.any(damped)) {
@@ -89,7 +89,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
   }
   analysis.communicator.together([&] {
     refuse_loads_without_inertia();
-    refuse_massless_restraints(analysis, step);
+    refuse_massless_restraints(analysis, step, linkages_);
   });
   find_loaded_nodes();
   halo_.emplace(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::step, has_loads_ ? 2 : 1);
@@ -100,14 +100,14 @@ void ExplicitStep::refuse_loads_without_inertia() const {
   for (const auto& load : step_.concentrated_loads) {
     const auto node = analysis_.domain.local_node[load.node];
     if (node < 0) continue;
-    const bool moved_by_body = analysis_.carrier(node) >= 0 || analysis_.reference_of(node) >= 0;
-    if (load.dof < 3 && !moved_by_body && inverse_mass_[node] == 0.0)
+    const bool moved_otherwise = analysis_.carrier(node) >= 0 || analysis_.reference_of(node) >= 0 || linkages_.moves(node);
+    if (load.dof < 3 && !moved_otherwise && inverse_.mass[node] == 0.0)
       throw InputError(
           fmt::format("{}: error: *CLOAD: node {} has no mass, so that an explicit step cannot move it; give it a "
                       "MASS element or load a node of an element",
                       model.where({load.file, load.line}), model.nodes.id[load.node]));
-    const bool turns = analysis_.turning_body(node) >= 0 || gyroscopic_.contains(node) ||
-                       (node < analysis_.domain.turning && inverse_rotary_inertia_[node] > 0.0);
+    const bool turns = analysis_.turning_body(node) >= 0 || gyroscopic_.contains(node) || linkages_.turns(node) ||
+                       (node < analysis_.domain.turning && inverse_.rotary[node] > 0.0);
     if (load.dof >= 3 && !turns)
       throw InputError(
           fmt::format("{}: error: *CLOAD: node {} has no rotary inertia, so that an explicit step cannot turn it; give it a "
@@ -167,6 +167,7 @@ void ExplicitStep::prepare_start() {
     rotation_constraints_.set_initial_velocities(analysis_, step_, instant());
     bodies_.set_initial_velocities(analysis_, instant());
   }
+  linkages_.make_velocities_consistent(analysis_);
   contact_.choose_springs(analysis_);
   if (!state.dynamic) contact_.report_overclosure(analysis_, observer_);
   if (!state.dynamic) check_rolling_radius(analysis_, step_, observer_);
@@ -273,6 +274,14 @@ void ExplicitStep::sum_body_forces() {
   timers.measure(Phase::bodies, [&] { bodies_.sum_forces(analysis_, forces(), moments_, instant(), which); });
 }
 
+void ExplicitStep::satisfy_constraints() {
+  if (linkages_.empty()) return;
+  timers.measure(Phase::bodies, [&] {
+    rotation_constraints_.find_velocities(analysis_, step_, instant());
+    linkages_.find_motion(analysis_, instant(), forces());
+  });
+}
+
 void ExplicitStep::choose_increment() {
   timers.measure(Phase::increment, [&] {
     auto& state = analysis_.current;
@@ -328,8 +337,11 @@ void ExplicitStep::update_velocities() {
     constraints_.find_reactions(analysis_, now, force_.data());
     rotation_constraints_.find_velocities(analysis_, step_, now);
     rotation_constraints_.find_reactions(analysis_, now, moment_.data());
+    linkages_.add_to_reactions(constraints_, rotation_constraints_);
+    linkages_.set_velocities(analysis_);
     const bool sound = move_nodes(now);
-    if (!kick(state.angular_velocity, moment_, inverse_rotary_inertia_, now.average()) || !sound) remember_blow_up();
+    if (!kick(state.angular_velocity, moment_, inverse_.rotary, now.average()) || !sound) remember_blow_up();
+    linkages_.add_gyroscopic_moments(moment_.data());
     constraints_.enforce(analysis_, now);
     if (nodes_are_ahead_) constraints_.move_again(analysis_, now);
     rotation_constraints_.enforce(analysis_, now);
@@ -343,15 +355,15 @@ void ExplicitStep::update_velocities() {
 bool ExplicitStep::move_nodes(const Instant& now) {
   auto& state = analysis_.current;
   nodes_are_ahead_ = !is_observed();
-  if (!nodes_are_ahead_) return kick(state.velocity, force_, inverse_mass_, now.average());
-  return kick_and_drift({state.position, state.velocity, force_, inverse_mass_}, now.average(), now.next);
+  if (!nodes_are_ahead_) return kick(state.velocity, force_, inverse_.mass, now.average());
+  return kick_and_drift({state.position, state.velocity, force_, inverse_.mass}, now.average(), now.next);
 }
 
 void ExplicitStep::remember_blow_up() {
   if (failure_) return;
   std::int32_t node = 0;
   const auto has_blown_up = [&](std::size_t at) {
-    return has_outgrown(&force_[4 * at]) || (at < inverse_rotary_inertia_.size() && has_outgrown(&moment_[4 * at]));
+    return has_outgrown(&force_[4 * at]) || (at < inverse_.rotary.size() && has_outgrown(&moment_[4 * at]));
   };
   while (!has_blown_up(static_cast<std::size_t>(node))) ++node;
   const Model& model = analysis_.model;

@@ -10,6 +10,7 @@
 #include "explicit_bodies.hpp"
 #include "explicit_contact.hpp"
 #include "explicit_gyroscopic.hpp"
+#include "explicit_linkages.hpp"
 #include "explicit_motion.hpp"
 #include "explicit_scale.hpp"
 #include "explicit_time.hpp"
@@ -33,6 +34,7 @@ class ExplicitStep {
   /// Tells how far the state is from equilibrium: exactly zero but for the tolerance of the steps before.
   void log_balance();
   void log_resting_elements() const;
+  void log_dependent_constraints() const;
 
   void advance_positions();
   void begin_external_loads();
@@ -51,6 +53,8 @@ class ExplicitStep {
   void add_stiff_contact();
   /// Behind choose_increment, which tells what is prescribed over the next increment and whether the observer wants reactions.
   void sum_body_forces();
+  /// Forces of constraints, when all others are known.
+  void satisfy_constraints();
   void update_velocities();
   /// Calls the observer if it is due, but never with a run that has failed. @return false if it wants the run to stop.
   /// @throws AnalysisError where it has: blown up, or its energy balance lost.
@@ -98,13 +102,14 @@ class ExplicitStep {
   double total_time_at_start_ = 0.0;  // of the step
   RigidDynamics bodies_;
   ElementFailures failures_;
+  NodalConstraints constraints_, rotation_constraints_;
+  GyroscopicNodes gyroscopic_;
+  InverseInertia inverse_;  // zero for nodes that bodies, tensors or linkages move
+  ExplicitLinkages linkages_;
   NodalRestraints restraints_;
   RestraintBound restraint_bound_;
   ForceScale scale_;
   TimeControl control_;
-  NodalConstraints constraints_, rotation_constraints_;
-  GyroscopicNodes gyroscopic_;
-  std::vector<double> inverse_mass_;  // zero for nodes that bodies move
   ExplicitContact contact_;
   bool has_loads_ = false;  // of any rank
   std::optional<Halo> halo_;  // of forces, and of external forces where there are loads
@@ -112,7 +117,6 @@ class ExplicitStep {
   std::vector<double> force_, external_force_, damping_force_;  // 4 a node; damping empty where there is none
   // Of nodes that turn; moments as long as forces, so that both have the scratch node in one place, or empty:
   std::vector<double> moment_, external_moment_, damping_moment_;
-  std::vector<double> inverse_rotary_inertia_;  // zero for nodes that bodies turn, and for gyroscopic ones
   std::vector<std::int32_t> loaded_nodes_;  // on which external forces may act, sorted
   std::size_t loaded_turning_ = 0;          // the first of them turn
   std::vector<Point> moments_;                                  // external, per rigid body

@@ -238,7 +238,7 @@ void FrequencyStep::run() {
                             analysis_.current.linear ? "the reference configuration" : "the present state",
                             system_.map().equations()));
   assemble();
-  Eigenmodes solver(system_.stiffness().matrix(), mass_.matrix(), analysis_.communicator);
+  Eigenmodes solver(system_.stiffness().matrix(), mass_.matrix(), system_.map().multipliers(), analysis_.communicator);
   const auto wanted = range(solver);
   const int negative = solver.count_below(solver.small_shift());
   std::vector<Mode> modes;

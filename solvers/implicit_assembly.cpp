@@ -48,6 +48,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   add_pressure_stiffness(request);
   add_body_load_stiffness(request);
   add_contact();
+  add_constraints();
   add_stabilization(request);
   exchange_.sum(residual_);
   exchange_.sum(external_);
@@ -215,7 +216,8 @@ void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point) {
 void ImplicitSystem::add_stabilization(const AssemblyRequest& request) {
   const double viscosity = request.viscosity;
   for (const auto slot : map_.owned_free_slots()) {
-    const double damping = viscosity * mass_[slot] + request.regularization * lever_[slot] * lever_[slot];
+    const bool moves = !map_.is_multiplier(slot);
+    const double damping = moves ? viscosity * mass_[slot] + request.regularization * lever_[slot] * lever_[slot] : 0.0;
     NodeMotion alone;
     alone.count = 1;
     alone.slots[0] = slot;
@@ -224,7 +226,7 @@ void ImplicitSystem::add_stabilization(const AssemblyRequest& request) {
   }
   if (viscosity == 0.0) return;
   for (const auto slot : map_.owned_slots()) {
-    if (map_.role(slot) == ImplicitDofMap::Role::absent) continue;
+    if (map_.role(slot) == ImplicitDofMap::Role::absent || map_.is_multiplier(slot)) continue;
     residual_[slot] += viscosity * mass_[slot] * moved(slot)[slot % 3];
   }
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "constraints/linkages.hpp"
+
 namespace balocco {
 
 namespace {
@@ -24,7 +26,7 @@ Point cross_product(const Point& a, const Point& b) {
 
 constexpr std::int8_t held_in_place = 1, held_from_turning = 2;
 
-/// Model nodes that some element with stiffness holds, on any rank: in place, or from turning too.
+/// Model nodes that some element with stiffness or a constraint holds, on any rank: in place, or from turning too.
 std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
   std::vector<std::int8_t> held(analysis.model.nodes.size(), 0);
   for (const auto& group : analysis.element_groups) {
@@ -35,6 +37,11 @@ std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
         mark = std::max(mark, kind);
       }
   }
+  for (const auto& constraint : analysis.constraints)
+    for (std::size_t i = 0; i < constraint->nodes().size(); ++i) {
+      auto& mark = held[constraint->nodes()[i]];
+      mark = std::max(mark, constraint->turns(static_cast<int>(i)) ? held_from_turning : held_in_place);
+    }
   MPI_Allreduce(MPI_IN_PLACE, held.data(), static_cast<int>(held.size()), MPI_INT8_T, MPI_MAX,
                 analysis.communicator.handle());
   return held;
@@ -43,14 +50,28 @@ std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
 }  // namespace
 
 ImplicitDofMap::ImplicitDofMap(const Analysis& analysis, std::span<const std::int32_t> prescribed)
-    : analysis_(analysis), layout_(analysis.domain) {
+    : analysis_(analysis), layout_(analysis) {
   for (std::int32_t node = 0; node < layout_.nodes; ++node)
     directions_.push_back(analysis.directions.find(analysis.domain.node_row[node]));
+  list_multipliers();
   find_roles(prescribed);
+  drop_dependent_rows();
   number();
 }
 
+void ImplicitDofMap::list_multipliers() {
+  for (const auto index : analysis_.local_constraints) {
+    const auto& constraint = *analysis_.constraints[index];
+    first_multiplier_.push_back(layout_.first_multiplier() + static_cast<std::int32_t>(constraint_row_.size()));
+    for (int row = 0; row < constraint.rows(); ++row) {
+      constraint_row_.push_back(analysis_.first_constraint_row[index] + row);
+      constraint_node_.push_back(analysis_.domain.local_node[constraint.nodes().front()]);
+    }
+  }
+}
+
 std::int32_t ImplicitDofMap::node_of(std::int32_t slot) const {
+  if (is_multiplier(slot)) return constraint_node_[slot - layout_.first_multiplier()];
   if (!is_rotation(slot)) return slot / 3;
   const auto body = body_of(slot);
   if (body < 0) return slot / 3 - layout_.nodes;
@@ -62,8 +83,7 @@ const Matrix3<double>& ImplicitDofMap::directions(std::int32_t node) const {
 }
 
 void ImplicitDofMap::find_roles(std::span<const std::int32_t> prescribed) {
-  const auto bodies = static_cast<std::int32_t>(analysis_.model.rigid_bodies.size());
-  role_.assign(layout_.rotation_slot(bodies, 0), Role::free);
+  role_.assign(layout_.first_multiplier() + constraint_row_.size(), Role::free);
   const auto held = held_nodes(analysis_);
   for (std::int32_t node = 0; node < layout_.nodes; ++node) {
     const bool moves = held[analysis_.domain.node_row[node]] != 0 || analysis_.reference_of(node) >= 0;
@@ -74,6 +94,62 @@ void ImplicitDofMap::find_roles(std::span<const std::int32_t> prescribed) {
   }
   for (const auto slot : prescribed)
     if (role_[slot] == Role::free) role_[slot] = Role::prescribed;
+}
+
+/// Rows that others imply, where motions are prescribed and bodies rigid, would leave the equations without a single solution.
+void ImplicitDofMap::drop_dependent_rows() {
+  if (constraint_row_.empty()) return;
+  std::vector<SparseRow> rows(constraint_row_.size());
+  std::vector<NodePlace> places;
+  std::vector<double> gradient;
+  std::size_t first = 0;
+  for (const auto index : analysis_.local_constraints) {
+    const auto& constraint = *analysis_.constraints[index];
+    const auto width = static_cast<std::size_t>(constraint.columns());
+    analysis_.find_places(index, places);
+    gradient.resize(constraint.rows() * width);
+    constraint.gradient(places, gradient);
+    for (std::size_t i = 0; i < constraint.nodes().size(); ++i) {
+      const auto node = analysis_.domain.local_node[constraint.nodes()[i]];
+      const auto add = [&](const NodeMotion& motion, std::size_t column) {
+        for (int k = 0; k < motion.count; ++k) {
+          if (role_[motion.slots[k]] != Role::free) continue;
+          const auto& d = motion.direction[k];
+          for (int row = 0; row < constraint.rows(); ++row) {
+            const double* g = &gradient[row * width + column];
+            const double value = g[0] * d[0] + g[1] * d[1] + g[2] * d[2];
+            if (value != 0.0) rows[first + row].emplace_back(motion.slots[k], value);
+          }
+        }
+      };
+      add(motion(node), 6 * i);
+      if (node < layout_.turning) add(nodal_spin(node), 6 * i + 3);
+    }
+    first += constraint.rows();
+  }
+  const auto dependent = dependent_rows(rows);
+  for (std::size_t i = 0; i < dependent.size(); ++i)
+    if (dependent[i]) role_[layout_.first_multiplier() + i] = Role::absent;
+}
+
+std::vector<std::int32_t> ImplicitDofMap::dependent_constraint_rows() const {
+  std::vector<std::int32_t> rows;
+  for (std::size_t i = 0; i < constraint_row_.size(); ++i)
+    if (role_[layout_.first_multiplier() + i] == Role::absent) rows.push_back(constraint_row_[i]);
+  return rows;
+}
+
+int ImplicitDofMap::multipliers() const {
+  const auto mine = std::ranges::count_if(owned_free_slots_, [&](std::int32_t slot) { return is_multiplier(slot); });
+  return static_cast<int>(analysis_.communicator.sum(static_cast<std::int64_t>(mine)));
+}
+
+/// Place of a slot in tables over the whole model, alike on every rank.
+std::size_t ImplicitDofMap::table_index(std::int32_t slot) const {
+  const std::size_t rows = analysis_.model.nodes.size();
+  if (is_multiplier(slot)) return 3 * (2 * rows + layout_.bodies) + constraint_row(slot);
+  if (const auto body = body_of(slot); body >= 0) return 3 * (2 * rows + body) + slot % 3;
+  return 3 * ((is_rotation(slot) ? rows : 0) + analysis_.domain.node_row[node_of(slot)]) + slot % 3;
 }
 
 void ImplicitDofMap::number() {
@@ -94,12 +170,8 @@ void ImplicitDofMap::number() {
 
   // Copies learn the owners' numbers through tables over the whole model: slot number + 1 and equation number + 1, 0:
   // not mine.
-  const auto rows = analysis_.model.nodes.size();
-  const auto table_index = [&](std::int32_t slot) -> std::size_t {
-    if (const auto body = body_of(slot); body >= 0) return 3 * (2 * rows + body) + slot % 3;
-    return 3 * ((is_rotation(slot) ? rows : 0) + analysis_.domain.node_row[node_of(slot)]) + slot % 3;
-  };
-  const std::size_t table_size = 3 * (2 * rows + analysis_.model.rigid_bodies.size());
+  const std::size_t table_size = 3 * (2 * static_cast<std::size_t>(analysis_.model.nodes.size()) + layout_.bodies) +
+                                 analysis_.current.multiplier.size();
   std::vector<PetscInt> table(2 * table_size, 0);
   for (const auto slot : owned_slots_) table[table_index(slot)] = ++first[0];
   for (const auto slot : owned_free_slots_) table[table_size + table_index(slot)] = ++first[1];
@@ -154,6 +226,7 @@ NodeMotion ImplicitDofMap::spin_by(std::int32_t first_slot) const {
 
 std::string ImplicitDofMap::describe(std::int32_t slot) const {
   const auto id = analysis_.model.nodes.id[analysis_.domain.node_row[node_of(slot)]];
+  if (is_multiplier(slot)) return fmt::format("a constraint of node {}", id);
   return fmt::format("node {}, dof {}", id, slot % 3 + (is_rotation(slot) ? 4 : 1));
 }
 
@@ -164,10 +237,10 @@ std::string ImplicitDofMap::describe_equation(PetscInt equation) const {
   if (mine) {
     const auto slot = owned_free_slots_[local];
     found = {analysis_.model.nodes.id[analysis_.domain.node_row[node_of(slot)]],
-             slot % 3 + (is_rotation(slot) ? 4 : 1)};
+             is_multiplier(slot) ? 0 : slot % 3 + (is_rotation(slot) ? 4 : 1)};
   }
   MPI_Allreduce(MPI_IN_PLACE, found.data(), 2, MPI_INT64_T, MPI_MAX, analysis_.communicator.handle());
-  return fmt::format("node {}, dof {}", found[0], found[1]);
+  return found[1] == 0 ? fmt::format("a constraint of node {}", found[0]) : fmt::format("node {}, dof {}", found[0], found[1]);
 }
 
 }  // namespace balocco

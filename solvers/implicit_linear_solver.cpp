@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string_view>
 
 namespace balocco {
 
@@ -74,6 +75,7 @@ void ImplicitLinearSolver::set_near_null_space(const Analysis& analysis) {
   }
   for (std::size_t i = 0; i < map_.owned_free_slots().size(); ++i) {
     const auto slot = map_.owned_free_slots()[i];
+    if (map_.is_multiplier(slot)) continue;
     const auto node = map_.node_of(slot);
     const auto& axes = map_.directions(node);
     const double* x = &analysis.current.position[4 * node];
@@ -108,19 +110,40 @@ void ImplicitLinearSolver::set_near_null_space(const Analysis& analysis) {
   for (auto& vector : vectors) petsc(VecDestroy(&vector));
 }
 
+/// Pivots that multipliers put off may need far more room than MUMPS had foreseen. @return whether it has more now.
+bool ImplicitLinearSolver::makes_room(PC preconditioner) {
+  constexpr PetscInt too_little_integer_room = -8, too_little_room = -9, most_room = 2000;  // per cent
+  Mat factor = nullptr;
+  MatSolverType package = nullptr;
+  PetscBool factorises = PETSC_FALSE;
+  petsc(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &factorises, PCLU, PCCHOLESKY, ""));
+  if (factorises == PETSC_FALSE) return false;
+  petsc(PCFactorGetMatrix(preconditioner, &factor));
+  petsc(PCFactorGetMatSolverType(preconditioner, &package));
+  if (factor == nullptr || package == nullptr || std::string_view(package) != MATSOLVERMUMPS) return false;
+  PetscInt status = 0, room = 0;
+  petsc(MatMumpsGetInfog(factor, 1, &status));
+  petsc(MatMumpsGetIcntl(factor, 14, &room));
+  if ((status != too_little_integer_room && status != too_little_room) || room >= most_room) return false;
+  petsc(PetscOptionsSetValue(nullptr, "-mat_mumps_icntl_14", std::to_string(3 * room).c_str()));
+  return true;
+}
+
 bool ImplicitLinearSolver::solve_vectors(Mat matrix, Vec right_hand_side, Vec solution) {
   const double start = MPI_Wtime();
-  petsc(KSPSetOperators(solver_, matrix, matrix));
-  petsc(KSPSolve(solver_, right_hand_side, solution));
-  seconds_ += MPI_Wtime() - start;
   KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  petsc(KSPGetConvergedReason(solver_, &reason));
-  if (reason == KSP_DIVERGED_PC_FAILED) {
-    // After a factorisation that broke down PETSc's interface to MUMPS would skip the next one.
+  for (bool again = true; again;) {
+    petsc(KSPSetOperators(solver_, matrix, matrix));
+    petsc(KSPSolve(solver_, right_hand_side, solution));
+    petsc(KSPGetConvergedReason(solver_, &reason));
+    again = false;
+    if (reason != KSP_DIVERGED_PC_FAILED) continue;
     PC preconditioner = nullptr;
     petsc(KSPGetPC(solver_, &preconditioner));
-    petsc(PCReset(preconditioner));
+    again = makes_room(preconditioner);
+    petsc(PCReset(preconditioner));  // after a factorisation that broke down PETSc's interface to MUMPS would skip the next one
   }
+  seconds_ += MPI_Wtime() - start;
   double norm = 0.0;
   petsc(VecNorm(solution, NORM_INFINITY, &norm));
   return reason > 0 && std::isfinite(norm);
@@ -192,6 +215,15 @@ std::string ImplicitLinearSolver::unresisted_equation() {
   return smallest > 0.0 ? std::string{} : map_.describe_equation(equation);
 }
 
+/// Takes out what belongs to multipliers: forces have no part in the size of a motion, nor gaps in that of a force.
+void ImplicitLinearSolver::clear_multipliers(Vec vector) {
+  double* values = nullptr;
+  petsc(VecGetArray(vector, &values));
+  for (std::size_t i = 0; i < map_.owned_free_slots().size(); ++i)
+    if (map_.is_multiplier(map_.owned_free_slots()[i])) values[i] = 0.0;
+  petsc(VecRestoreArray(vector, &values));
+}
+
 double ImplicitLinearSolver::average_diagonal() {
   PetscVector diagonal;
   petsc(VecDuplicate(solution_, diagonal.address()));
@@ -208,14 +240,18 @@ std::string ImplicitLinearSolver::mechanism() {
   petsc(VecDuplicate(right_hand_side_, force.address()));
   petsc(VecDuplicate(solution_, motion.address()));
   fill_with_noise(force);
+  clear_multipliers(force);
   if (!solve_vectors(matrix_, force, motion)) {
     // The factorisation broke down: a touch of stiffness everywhere lets it through, and the mechanism still stands
     // out.
     PetscMatrix stiffened;
     petsc(MatDuplicate(matrix_, MAT_COPY_VALUES, stiffened.address()));
     petsc(MatShift(stiffened, 1e-12 * average));
-    return solve_vectors(stiffened, force, motion) ? largest_component(motion) : "no dof stands out";
+    if (!solve_vectors(stiffened, force, motion)) return "no dof stands out";
+    clear_multipliers(motion);
+    return largest_component(motion);
   }
+  clear_multipliers(motion);
   double force_norm = 0.0, motion_norm = 0.0;
   petsc(VecNorm(force, NORM_2, &force_norm));
   petsc(VecNorm(motion, NORM_2, &motion_norm));

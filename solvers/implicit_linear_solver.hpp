@@ -42,6 +42,8 @@ class ImplicitLinearSolver {
   bool is_symmetric() const;
   void set_near_null_space(const Analysis& analysis);
   bool solve_vectors(Mat matrix, Vec right_hand_side, Vec solution);
+  void clear_multipliers(Vec vector);
+  static bool makes_room(PC preconditioner);
   std::string unresisted_equation();
   std::string largest_component(Vec vector);
 

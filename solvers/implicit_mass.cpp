@@ -69,6 +69,7 @@ void assemble_mass(const Analysis& analysis, const ImplicitDofMap& map, Implicit
 }
 
 double rigid_motion(const Analysis& analysis, const ImplicitDofMap& map, std::int32_t slot, int mode) {
+  if (map.is_multiplier(slot)) return 0.0;
   const auto node = map.node_of(slot);
   const auto& axes = map.directions(node);
   const Point direction{axes(slot % 3, 0), axes(slot % 3, 1), axes(slot % 3, 2)};

@@ -137,6 +137,10 @@ ImplicitNewton::Norms ImplicitNewton::norms() const {
   std::array<double, 3> squares{};  // residual, loads, reactions
   Norms result;
   for (const auto slot : map.owned_slots()) {
+    if (map.is_multiplier(slot)) {
+      result.gap = std::max(result.gap, std::abs(out_of_balance_[slot]));
+      continue;
+    }
     const auto square = [&](double value) { return value * value / (system_.lever(slot) * system_.lever(slot)); };
     squares[1] += square(system_.external()[slot]);
     if (map.role(slot) == ImplicitDofMap::Role::prescribed) {
@@ -148,10 +152,11 @@ ImplicitNewton::Norms ImplicitNewton::norms() const {
     }
   }
   analysis_.communicator.sum(std::span<double>(squares));
-  std::array<double, 2> largest{result.largest, result.remaining};
+  std::array<double, 3> largest{result.largest, result.remaining, result.gap};
   analysis_.communicator.maximum(std::span<double>(largest));
   result.largest = largest[0];
   result.remaining = largest[1];
+  result.gap = largest[2];
   result.residual = std::sqrt(squares[0]);
   result.reference = std::max({std::sqrt(squares[1]), std::sqrt(squares[2]), system_.average_force()});
   return result;
@@ -160,6 +165,7 @@ ImplicitNewton::Norms ImplicitNewton::norms() const {
 bool ImplicitNewton::accepted(const IncrementGoal& goal, const Norms& now, const NewtonResult& result) const {
   const double resolution = 8.0 * std::numeric_limits<double>::epsilon() * system_.model_size();
   if (now.remaining > std::max(1e-10 * largest_increment_, resolution)) return false;
+  if (now.gap > std::max(1e-10 * largest_increment_, 16.0 * resolution)) return false;
   // Corrections too small for the positions to hold them: sums cannot be had more exactly.
   const bool resolved = result.iterations > 0 && mechanism_.empty() && largest_correction_ <= resolution;
   // What is left of a structure that has come to rest without any force is judged by the forces it had.
@@ -241,7 +247,8 @@ bool ImplicitNewton::solve_held_back(const IncrementGoal& goal) {
     if (solver_.solve(right_hand_side_, solution_)) {
       double largest = 0.0;
       for (std::size_t i = 0; i < solution_.size(); ++i)
-        largest = std::max(largest, std::abs(solution_[i]) * system_.lever(system_.map().owned_free_slots()[i]));
+        if (const auto slot = system_.map().owned_free_slots()[i]; !system_.map().is_multiplier(slot))
+          largest = std::max(largest, std::abs(solution_[i]) * system_.lever(slot));
       if (analysis_.communicator.maximum(largest) <= longest_held_back * system_.model_size()) return true;
     }
     regularization_ = std::max(8.0 * regularization_, 1e-9 * solver_.average_diagonal());
@@ -275,8 +282,13 @@ bool ImplicitNewton::search_line(const IncrementGoal& goal) {
   const auto work = [&] {
     std::array<double, 2> sums{};  // right-hand side * correction, and its square norm
     for (std::size_t i = 0; i < solution_.size(); ++i) {
+      const auto slot = system_.map().owned_free_slots()[i];
+      if (system_.map().is_multiplier(slot)) {  // with this sign the sum is motion * stiffness * motion, whatever the constraints do
+        sums[0] -= right_hand_side_[i] * solution_[i];
+        continue;
+      }
       sums[0] += right_hand_side_[i] * solution_[i];
-      const double force = right_hand_side_[i] / system_.lever(system_.map().owned_free_slots()[i]);
+      const double force = right_hand_side_[i] / system_.lever(slot);
       sums[1] += force * force;
     }
     analysis_.communicator.sum(std::span<double>(sums));
@@ -310,6 +322,7 @@ void ImplicitNewton::measure_correction(double factor) {
   std::array<double, 2> largest{};
   for (std::int32_t slot = 0; slot < system_.map().slots(); ++slot) {
     increment_[slot] += factor * correction_[slot];
+    if (system_.map().is_multiplier(slot)) continue;
     largest[0] = std::max(largest[0], std::abs(factor * correction_[slot]) * system_.lever(slot));
     largest[1] = std::max(largest[1], std::abs(increment_[slot]) * system_.lever(slot));
   }
@@ -350,7 +363,7 @@ std::string ImplicitNewton::worst_dof() const {
   double largest = -1.0;
   PetscInt equation = -1;
   for (const auto slot : map.owned_free_slots())
-    if (const double value = std::abs(out_of_balance_[slot]) / system_.lever(slot); value > largest) {
+    if (const double value = std::abs(out_of_balance_[slot]) / system_.lever(slot); value > largest && !map.is_multiplier(slot)) {
       largest = value;
       equation = map.equation(slot);
     }

@@ -62,6 +62,7 @@ class ImplicitNewton {
     double largest = 0.0;
     double reference = 0.0;  // forces that the residual is measured against
     double remaining = 0.0;  // largest prescribed motion still to be made
+    double gap = 0.0;        // largest of the constraints
   };
 
   bool evaluate(const IncrementGoal& goal);

@@ -70,7 +70,7 @@ std::vector<PrescribedMotion> prescribed_motions(const Analysis& analysis, const
   std::vector<bool> turns_with_body(static_cast<std::size_t>(analysis.model.nodes.size()));
   for (const auto& body : analysis.current.rigid_bodies)
     for (const auto& node : body.nodes) turns_with_body[node.node] = node.tie;
-  const SlotLayout layout(analysis.domain);
+  const SlotLayout layout(analysis);
   std::vector<std::string> errors;
   for (const auto& condition : step.boundary) {
     const bool pinned_rotation = condition.dof >= 3 && !turns_with_body[condition.node];

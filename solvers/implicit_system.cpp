@@ -17,6 +17,8 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
       stiffness_(map_, analysis.communicator),
       residual_(map_.slots()),
       external_(map_.slots()) {
+  for (auto slot = map_.first_multiplier(); slot < map_.slots(); ++slot)
+    if (map_.role(slot) == ImplicitDofMap::Role::absent) analysis_.current.multiplier[map_.constraint_row(slot)] = 0.0;
   find_levers();
   find_stabilizing_masses();
   begin_increment();
@@ -115,6 +117,7 @@ void ImplicitSystem::record_pattern() {
       if (analysis_.domain.owned[node])
         stiffness_.add(std::array{map_.motion(node), map_.motion(master), map_.spin(contact.master_body())}, {});
   }
+  record_constraints();
   for (const auto slot : map_.owned_free_slots()) {
     NodeMotion alone;
     alone.count = 1;
@@ -153,9 +156,12 @@ void ImplicitSystem::move(std::span<const double> increment, double factor) {
     std::ranges::copy(now, q);
     for (int i = 0; i < 3; ++i) state.rotation[4 * node + i] += spin[i];
   }
+  for (auto slot = map_.first_multiplier(); slot < map_.slots(); ++slot)
+    state.multiplier[map_.constraint_row(slot)] += factor * increment[slot];
 }
 
 double ImplicitSystem::displacement(std::int32_t slot) const {
+  if (map_.is_multiplier(slot)) return analysis_.current.multiplier[map_.constraint_row(slot)];
   const auto node = map_.node_of(slot);
   Point vector{};
   if (const auto body = map_.body_of(slot); body >= 0) {
@@ -189,7 +195,7 @@ Point ImplicitSystem::moved(std::int32_t slot) const {
 
 Configuration ImplicitSystem::configuration() const {
   const auto& state = analysis_.current;
-  return {state.position, state.orientation, state.rotation, state.rigid_bodies};
+  return {state.position, state.orientation, state.rotation, state.rigid_bodies, state.multiplier};
 }
 
 Configuration ImplicitSystem::reference() const {
@@ -206,6 +212,7 @@ Configuration ImplicitSystem::reference() const {
     result.bodies[body].rotation = {};
   }
   std::ranges::fill(result.rotation, 0.0);
+  std::ranges::fill(result.multiplier, 0.0);
   for (std::size_t i = 0; i < result.orientation.size(); ++i) result.orientation[i] = i % 4 == 0 ? 1.0 : 0.0;
   return result;
 }
@@ -230,6 +237,8 @@ void ImplicitSystem::displace(std::span<const double> displacement) {
     rotate(state.rigid_bodies[body], spin);
     std::copy_n(&state.position[4 * reference], 3, state.rigid_bodies[body].position.begin());
   }
+  for (auto slot = map_.first_multiplier(); slot < map_.slots(); ++slot)
+    state.multiplier[map_.constraint_row(slot)] = displacement[slot];
 }
 
 void ImplicitSystem::restore(const Configuration& configuration) {
@@ -237,6 +246,7 @@ void ImplicitSystem::restore(const Configuration& configuration) {
   analysis_.current.orientation = configuration.orientation;
   analysis_.current.rotation = configuration.rotation;
   analysis_.current.rigid_bodies = configuration.bodies;
+  analysis_.current.multiplier = configuration.multiplier;
 }
 
 void ImplicitSystem::begin_increment() {

@@ -26,6 +26,7 @@ struct AssemblyRequest {
 struct Configuration {
   std::vector<double> position, orientation, rotation;
   std::vector<RigidBodyState> bodies;
+  std::vector<double> multiplier;
 };
 
 class ImplicitSystem {
@@ -108,6 +109,12 @@ class ImplicitSystem {
   }
   void add_contact();
   void add_contact_point(std::int32_t pair, std::int32_t point);
+  void record_constraints();
+  void add_constraints();
+  void add_constraint(std::size_t local_constraint);
+  /// Calls add(motions, block) for the parts of which a constraint's tangent consists, always in the same order.
+  template <class Add>
+  void for_each_constraint_block(std::size_t local_constraint, Add add);
   void add_stabilization(const AssemblyRequest& request);
   void gather_at_bodies();
   void turn_into_slot_directions();
@@ -137,6 +144,8 @@ class ImplicitSystem {
   std::vector<NodeMotion> motions_;                                        // scratch
   std::vector<double> old_history_, new_history_, force_, block_;  // scratch
   std::vector<double> nodal_, nodal_moment_;                       // scratch
+  std::vector<NodePlace> places_;                                  // scratch
+  std::vector<double> gaps_, gradient_, curvature_;                // scratch
 };
 
 }  // namespace balocco

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <memory>
 
+#include "constraint_report.hpp"
 #include "model/diagnostics.hpp"
 #include "procedures.hpp"
 #include "implicit_linear_solver.hpp"
@@ -81,6 +82,7 @@ class StaticStep {
   std::vector<double> applied_;      // per slot: loads, reactions and fading forces at the end of the last increment
   std::vector<double> last_motion_;  // per slot, over the last increment of `last_increment_`
   double last_increment_ = 0.0;
+  std::vector<std::int32_t> dependent_rows_;  // of State::multiplier
   std::vector<double> residual_;  // per slot, at the end of the last increment; reactions where prescribed
 };
 
@@ -115,6 +117,8 @@ Outcome StaticStep::run() {
   observer_.log(fmt::format("step {} '{}': static, {}, {} equations", analysis_.current.step + 1, step_.name,
                             follows_geometry() ? "finite displacements" : "linear geometry",
                             system_.map().equations()));
+  dependent_rows_ = of_all_ranks(analysis_, system_.map().dependent_constraint_rows());
+  log_dependent_constraints(analysis_, dependent_rows_, observer_);
   if (!procedure_.nonlinear_geometry && follows_geometry())
     observer_.log(system_.has_contact() ? "  contact needs iterations: the step runs as if NLGEOM=YES"
                                         : "  laws that remember, springs with tables or large displacements before need "
@@ -217,6 +221,7 @@ void StaticStep::guess_damping(double time_increment) {
       {.step_time = analysis_.current.step_time, .total_time = analysis_.current.total_time, .motion = still});
   std::array<double, 2> mass{};
   for (const auto slot : system_.map().owned_free_slots()) {
+    if (system_.map().is_multiplier(slot)) continue;
     mass[0] += system_.stabilizing_mass(slot) / (system_.lever(slot) * system_.lever(slot));
     mass[1] += 1.0;
   }
@@ -231,7 +236,7 @@ void StaticStep::guess_damping(double time_increment) {
 void StaticStep::choose_damping(std::span<const double> motion, double time_increment) {
   std::array<double, 2> sums{};  // work, and sum of mass * motion^2
   for (const auto slot : system_.map().owned_slots()) {
-    if (system_.map().role(slot) == ImplicitDofMap::Role::absent) continue;
+    if (system_.map().role(slot) == ImplicitDofMap::Role::absent || system_.map().is_multiplier(slot)) continue;
     sums[0] += 0.5 * std::abs(applied_[slot] * motion[slot]);
     sums[1] += system_.stabilizing_mass(slot) * motion[slot] * motion[slot];
   }
@@ -255,7 +260,7 @@ void StaticStep::choose_damping_again() {
 void StaticStep::find_applied_forces(const IncrementGoal& goal, std::vector<double>& applied) const {
   const auto& map = system_.map();
   applied = system_.external();
-  for (std::int32_t slot = 0; slot < map.slots(); ++slot) {
+  for (std::int32_t slot = 0; slot < map.first_multiplier(); ++slot) {
     if (map.role(slot) == ImplicitDofMap::Role::absent) continue;
     const auto first = slot - slot % 3;
     const auto& axes = map.directions(map.node_of(slot));
@@ -272,7 +277,7 @@ void StaticStep::add_work(const IncrementGoal& goal) {
   const auto& map = system_.map();
   std::vector<double> applied;
   find_applied_forces(goal, applied);
-  for (std::int32_t slot = 0; slot < map.slots(); ++slot) {
+  for (std::int32_t slot = 0; slot < map.first_multiplier(); ++slot) {
     const auto node = map.node_of(slot);
     const auto& axes = map.directions(node);
     const bool absent = map.role(slot) == ImplicitDofMap::Role::absent;
@@ -295,7 +300,7 @@ void StaticStep::store_reactions() {
   std::ranges::fill(analysis_.angular_acceleration, 0.0);
   std::ranges::fill(analysis_.body_angular_acceleration, Point{});
   std::ranges::fill(analysis_.body_reaction, std::array<double, 6>{});
-  for (std::int32_t slot = 0; slot < map.slots(); ++slot) {
+  for (std::int32_t slot = 0; slot < map.first_multiplier(); ++slot) {
     if (map.role(slot) != ImplicitDofMap::Role::prescribed) continue;
     const auto node = map.node_of(slot);
     const auto body = analysis_.reference_of(node);
@@ -318,6 +323,7 @@ void StaticStep::finish_increment(const IncrementGoal& goal) {
   } else {
     residual_ = linear_.residual();
   }
+  refuse_contradictions(analysis_, dependent_rows_, system_.model_size());
   add_work(goal);
   store_reactions();
   if (chooses_damping()) choose_damping(newton_.increment(), goal.time_increment);

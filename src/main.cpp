@@ -71,7 +71,7 @@ ExitStatus run(const Command& command, const Communicator& communicator) {
   const JobPaths paths{command.output, model.name};
   if (command.restart) {
     read_checkpoint(paths.checkpoint(), model, communicator, analysis.domain, analysis.element_groups, analysis.current);
-    analysis.index_rigid_nodes();
+    analysis.take_up_checkpoint();
   }
   JobObserver observer(model, communicator, analysis.domain, paths, command.restart);
   try {

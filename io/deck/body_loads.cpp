@@ -39,6 +39,7 @@ bool takes(const ElementType& type, BodyLoad::Kind kind) {
     case Section::Kind::rotary_inertia:
     case Section::Kind::spring:
     case Section::Kind::dashpot:
+    case Section::Kind::connector:
     case Section::Kind::rigid: return false;
     default: return true;
   }

@@ -61,6 +61,8 @@ class Builder {
   Names node_sets{"node set", {}}, element_sets{"element set", {}}, surfaces{"surface", {}}, materials{"material", {}},
       orientations{"orientation", {}}, amplitudes{"amplitude", {}}, interactions{"surface interaction", {}};
   std::map<std::string, SectionControls> section_controls;
+  std::map<std::string, Connector> connector_behaviors;  // of which only the components and matrices are said
+  Connector* connector_behavior = nullptr;               // the last
   std::map<std::string, std::vector<double>> time_points;
   std::unordered_map<std::int64_t, ElementRef> element_of_id;
   std::vector<std::array<std::int32_t, 4>> sorted_solid_faces;  // filled when a surface first asks for free faces
@@ -79,6 +81,7 @@ class Builder {
   std::deque<Scope> scopes{1};  // the first is the whole deck's
   Scope* scope = &scopes.front();
   StepDraft draft;                       // the step being read
+  const Block* coupling = nullptr;       // the last *COUPLING
   std::set<const Block*> refused_steps;  // *STEP blocks in which something was refused
   bool in_step = false;
   bool first_pass = false;       // nodes and elements phases: what refers to things defined further down is put off

@@ -55,6 +55,21 @@ void give_section(Builder& builder, const Block& block, const std::vector<Elemen
   assign_section(builder, block, std::move(section), rigid);
 }
 
+/// CalculiX: a node whose displacements are the rotations of the body.
+bool read_rotation_node(Builder& builder, const Block& block, std::int32_t reference) {
+  if (!block.has("ROT NODE")) return true;
+  std::vector<std::int32_t> rows;
+  if (!builder.nodes_of(block.value("ROT NODE"), block, block.location, rows)) return false;
+  if (rows.size() != 1 || rows[0] == reference) {
+    builder.error(block, block.location, fmt::format("ROT NODE={} must stand for one node beside the reference node", block.value("ROT NODE")));
+    return false;
+  }
+  for (std::int32_t dof = 0; dof < 3; ++dof)
+    builder.model.constraints.push_back(
+        {LinearEquation{{{rows[0], dof, 1.0}, {reference, 3 + dof, -1.0}}}, "*RIGID BODY, ROT NODE", block.location.file, block.location.line});
+  return true;
+}
+
 void declare(Builder& builder, const Block& block, std::int32_t reference) {
   RigidBody body;
   body.location = block.location;
@@ -62,7 +77,8 @@ void declare(Builder& builder, const Block& block, std::int32_t reference) {
   body.name = fmt::format("RIGID-{}", builder.model.nodes.id[reference]);
   body.at_center_of_mass = squeeze(block.value("POSITION")) == "CENTEROFMASS";
   bool good = nodes_of_parameter(builder, block, "TIE NSET", body.tie_nodes) &
-              nodes_of_parameter(builder, block, "PIN NSET", body.pin_nodes);
+              nodes_of_parameter(builder, block, "NSET", body.tie_nodes) & nodes_of_parameter(builder, block, "PIN NSET", body.pin_nodes) &
+              read_rotation_node(builder, block, reference);
   if (block.has("ELSET"))
     good = builder.elements_of(block.value("ELSET"), block, block.location, body.elements) && good;
   if (block.has("ANALYTICAL SURFACE")) {
@@ -141,7 +157,7 @@ void read_rigid_body(Builder& builder, const Block& block) {
 }
 
 const std::vector<ParameterRule> parameters{required(name("REF NODE")), name("ELSET"),
-                                            name("PIN NSET"),           name("TIE NSET"),
+                                            name("PIN NSET"),           name("TIE NSET"), name("NSET"), name("ROT NODE"),
                                             name("RELEASE NSET"),       choice("POSITION", {"INPUT", "CENTER OF MASS"}),
                                             name("ANALYTICAL SURFACE")};
 

@@ -30,6 +30,8 @@ const char* describe(Section::Kind kind) {
       return "*SPRING";
     case Section::Kind::dashpot:
       return "*DASHPOT";
+    case Section::Kind::connector:
+      return "*CONNECTOR SECTION";
     case Section::Kind::rigid:
       return "*RIGID BODY with its ELSET";
   }

@@ -146,6 +146,8 @@ void ElementGroup::energies(std::int32_t first, const NodalMotion& motion, std::
 
 Restraint ElementGroup::restraint(std::int32_t) const { return {}; }
 
+Restraint ElementGroup::rotary_restraint(std::int32_t) const { return {}; }
+
 int ElementGroup::output_components(std::string_view variable) const {
   if (variable == "STATUS") return 1;
   return whole_element_energy(variable) != nullptr ? 1 : point_components(variable);

@@ -139,6 +139,8 @@ class ElementGroup {
 
   /// An element without mass has no stable increment of its own; the nodes that it holds have (explicit_restraints.hpp).
   virtual Restraint restraint(std::int32_t element) const;
+  /// The same for rotations of its nodes, and moments.
+  virtual Restraint rotary_restraint(std::int32_t element) const;
 
   virtual ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const = 0;
   /// The same bits for as many lanes from `first` on, a whole pack's first lane, as `of_lanes` has room for: whole packs, padded

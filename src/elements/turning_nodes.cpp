@@ -1,5 +1,7 @@
 #include "elements/turning_nodes.hpp"
 
+#include "constraints/constraint.hpp"
+#include "elements/connectors/connector.hpp"
 #include "elements/element_type.hpp"
 
 namespace balocco {
@@ -18,7 +20,12 @@ std::vector<bool> turning_nodes(const Model& model) {
       const auto section = table.section[i / static_cast<std::size_t>(table.type->nodes)];
       // Springs and dashpots of degrees of freedom 4 to 6; also on reference nodes, which turn with their bodies.
       if (section >= 0 && model.sections[section].spring.freedom[0] >= 3) turns[table.connectivity[i]] = true;
+      if (section >= 0 && model.sections[section].connector >= 0 && turns_nodes(model.connectors[model.sections[section].connector]))
+        turns[table.connectivity[i]] = true;
     }
+  for (const auto& constraint : make_constraints(model))
+    for (std::size_t i = 0; i < constraint->nodes().size(); ++i)
+      if (constraint->turns(static_cast<int>(i))) turns[constraint->nodes()[i]] = true;
   return turns;
 }
 

@@ -7,10 +7,12 @@
 #include <cmath>
 #include <set>
 
+#include "constraints/linkages.hpp"
 #include "elements/element_type.hpp"
 #include "elements/solids/solid_jacobian.hpp"
 #include "loads/body_load.hpp"
 #include "materials/material_option.hpp"
+#include "model/check_constraints.hpp"
 #include "model/check_failure.hpp"
 #include "model/diagnostics.hpp"
 
@@ -37,6 +39,7 @@ class Checker {
     find_idle_nodes();
     for (const auto& step : model_.steps) check_step(step);
     for (const auto& [location, text] : check_failure(model_)) error(location, text);
+    for (const auto& [location, text] : check_constraints(model_)) error(location, text);
     return std::move(found_);
   }
 
@@ -62,9 +65,9 @@ class Checker {
   void check_initial_fields();
   void find_idle_nodes();
   void check_loads(const Step& step);
-  /// Springs and dashpots between degrees of freedom may join nodes that lie in one place.
+  /// Connectors, and springs and dashpots between degrees of freedom, may join nodes that lie in one place.
   bool acts_in_fixed_directions(std::int32_t section) const {
-    return section >= 0 && model_.sections[section].spring.freedom[0] >= 0;
+    return section >= 0 && (model_.sections[section].spring.freedom[0] >= 0 || model_.sections[section].connector >= 0);
   }
   void check_step(const Step& step);
   void check_boundary(const Step& step);
@@ -327,6 +330,8 @@ void Checker::find_idle_nodes() {
       for (const auto node : attachment.nodes) idle_[node] = false;
     }
   }
+  for (const auto& constraint : model_.constraints)
+    for (const auto node : constrained_nodes(constraint.kind)) idle_[node] = false;
   const auto count = std::count(idle_.begin(), idle_.end(), true);
   if (count == 0) return;
   const auto first = static_cast<std::int32_t>(std::find(idle_.begin(), idle_.end(), true) - idle_.begin());

@@ -10,6 +10,8 @@
 #include <unordered_map>
 #include <vector>
 
+#include "model/connector.hpp"
+#include "model/constraint.hpp"
 #include "model/element_ref.hpp"
 #include "model/step.hpp"
 
@@ -174,7 +176,7 @@ struct BeamProfile {
 enum class HourglassControl { enhanced, stiffness };
 
 struct Section {
-  enum class Kind { solid, membrane, shell, truss, beam, mass, rotary_inertia, spring, dashpot, rigid } kind = Kind::solid;
+  enum class Kind { solid, membrane, shell, truss, beam, mass, rotary_inertia, spring, dashpot, connector, rigid } kind = Kind::solid;
   std::string element_set;
   std::int32_t material = -1;     // -1: none, or composite
   std::int32_t orientation = -1;  // row of Model::orientations, -1: the default directions
@@ -188,6 +190,7 @@ struct Section {
   double mass = 0.0;                    // MASS elements
   std::array<double, 6> inertia{};      // ROTARYI: I11 I22 I33 I12 I13 I23 about the node
   SpringProperty spring;                // springs and dashpots
+  std::int32_t connector = -1;          // row of Model::connectors
   bool initially_stressed = false;      // an InitialField gives some of its elements a stress
   Location location;
 };
@@ -273,7 +276,9 @@ struct Model {
   std::vector<Orientation> orientations;
   std::vector<NodalTransform> transforms;
   std::vector<Section> sections;
+  std::vector<Connector> connectors;
   std::vector<RigidBody> rigid_bodies;
+  std::vector<ConstraintDefinition> constraints;
   std::vector<Amplitude> amplitudes;
   std::vector<Interaction> interactions;
   std::vector<ContactPair> contact_pairs;

@@ -67,6 +67,7 @@ struct State {
   std::vector<std::vector<double>> element_history;       // per element group
   std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
   std::vector<RigidBodyState> rigid_bodies;
+  std::vector<double> multiplier;                         // per row of the model's constraints: force along its gradient; kept by the ranks that hold its nodes
 
   NodalMotion motion() const {
     return {.position = position.data(),

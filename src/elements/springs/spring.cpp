@@ -157,7 +157,7 @@ ElementEnergies SpringGroup::energies(std::int32_t, const NodalMotion&, std::spa
   return result;
 }
 
-Restraint SpringGroup::restraint(std::int32_t element) const {
+Restraint SpringGroup::bound(std::int32_t element) const {
   Restraint bound{.force = curve_.largest_force()};
   if (viscous_) {
     bound.viscosity = curve_.steepest();

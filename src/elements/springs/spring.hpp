@@ -32,7 +32,8 @@ class SpringGroup final : public ElementGroup {
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                  std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;
-  Restraint restraint(std::int32_t element) const override;
+  Restraint restraint(std::int32_t element) const override { return turns() ? Restraint{} : bound(element); }
+  Restraint rotary_restraint(std::int32_t element) const override { return turns() ? bound(element) : Restraint{}; }
   int integration_points() const override { return 1; }
   std::size_t bytes_per_element() const override;
 
@@ -48,6 +49,7 @@ class SpringGroup final : public ElementGroup {
   };
 
   bool turns() const { return freedoms_per_node_ == 6; }
+  Restraint bound(std::int32_t element) const;
   int first_freedom() const { return turns() ? 3 : 0; }
   void find_axial_lengths(const GroupInput& input);
   void find_directions(const GroupInput& input);

@@ -1,0 +1,211 @@
+// What moves the nodes of each linkage in a step, and which conditions are solved for.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "explicit_linkages.hpp"
+#include "hilbert.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+ExplicitLinkages::ExplicitLinkages(const Analysis& analysis, const Step& step, const NodalConstraints& translations,
+                                   const NodalConstraints& rotations, GyroscopicNodes& gyroscopic, RigidDynamics& bodies,
+                                   InverseInertia& inverse)
+    : step_(step), translations_(translations), rotations_(rotations), gyroscopic_(gyroscopic), bodies_(bodies), inverse_(inverse) {
+  moves_.assign(static_cast<std::size_t>(analysis.domain.size()), false);
+  turns_.assign(static_cast<std::size_t>(analysis.domain.turning), false);
+  for (const auto& linkage : find_linkages(analysis.model))
+    if (std::ranges::binary_search(analysis.local_constraints, linkage.constraints.front())) add_system(analysis, linkage);
+  for (const auto& system : systems_) take_over(system, inverse);
+}
+
+void ExplicitLinkages::add_system(const Analysis& analysis, const Linkage& linkage) {
+  auto& system = systems_.emplace_back();
+  std::vector<Point> points;
+  for (const auto node : linkage.nodes) points.push_back(analysis.model.nodes.coordinates[node]);
+  const auto [low, high] = bounding_box(points);
+  system.size = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  for (const auto index : linkage.constraints) {
+    const auto& constraint = *analysis.constraints[index];
+    Member member{.constraint = index, .nodes = {}, .rows = {}, .movers = {}, .columns = {}, .gradient = {}, .neighbours = {}};
+    for (std::size_t i = 0; i < constraint.nodes().size(); ++i)
+      member.nodes.push_back(use_of(analysis, system, constraint.nodes()[i], constraint.turns(static_cast<int>(i))));
+    for (int row = 0; row < constraint.rows(); ++row) member.rows.push_back(row);
+    const bool by_bodies = std::ranges::any_of(member.nodes, [&](const NodeUse& use) {
+      return system.movers[use.translation].kind == Mover::Kind::body ||
+             (use.rotation >= 0 && system.movers[use.rotation].kind != Mover::Kind::rotation);
+    });
+    system.is_linear = system.is_linear && constraint.is_linear() && !by_bodies;
+    system.members.push_back(std::move(member));
+  }
+  list_columns(system);
+  drop_dependent_rows(analysis, system);
+  number(system);
+}
+
+std::int32_t ExplicitLinkages::mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index) {
+  const auto same = [&](const Mover& mover) { return mover.kind == kind && mover.index == index; };
+  const auto known = std::ranges::find_if(system.movers, same);
+  if (known != system.movers.end()) return static_cast<std::int32_t>(known - system.movers.begin());
+  Mover mover{.kind = kind, .index = index};
+  mover.size = kind == Mover::Kind::body ? 6 : 3;
+  mover.first = static_cast<int>(system.mover_of_column.size());
+  for (int c = 0; c < mover.size; ++c) system.mover_of_column.emplace_back(static_cast<std::int32_t>(system.movers.size()), c);
+  if (kind == Mover::Kind::translation || kind == Mover::Kind::rotation) find_freedoms(analysis, mover);
+  system.movers.push_back(std::move(mover));
+  return static_cast<std::int32_t>(system.movers.size()) - 1;
+}
+
+void ExplicitLinkages::find_freedoms(const Analysis& analysis, Mover& mover) const {
+  const bool translates = mover.kind == Mover::Kind::translation;
+  mover.inverse_inertia = translates ? inverse_.mass[mover.index] : inverse_.rotary[mover.index];
+  const auto row = analysis.domain.node_row[mover.index];
+  const auto conditions = (translates ? translations_ : rotations_).of_node(mover.index);
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto direction = analysis.directions.direction(row, axis);
+    const auto holds = [&](const NodalConstraints::Constraint& condition) { return condition.direction == direction; };
+    const auto condition = std::ranges::find_if(conditions, holds);
+    if (condition != conditions.end()) {
+      mover.conditions.push_back(&*condition);
+      continue;
+    }
+    mover.directions.push_back(direction);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) mover.response(i, j) += mover.inverse_inertia * direction[i] * direction[j];
+  }
+}
+
+ExplicitLinkages::NodeUse ExplicitLinkages::use_of(const Analysis& analysis, System& system, std::int32_t row, bool turns) {
+  NodeUse use{.node = analysis.domain.local_node[row]};
+  const auto carrier = analysis.carrier(use.node), reference = analysis.reference_of(use.node);
+  use.carried = carrier >= 0;
+  if (use.carried) {
+    const auto& nodes = analysis.current.rigid_bodies[carrier].nodes;
+    use.offset = std::ranges::lower_bound(nodes, row, {}, &RigidNode::node)->offset;
+  }
+  const auto body = use.carried ? carrier : reference;
+  use.translation = body >= 0 ? mover_of(analysis, system, Mover::Kind::body, body)
+                              : mover_of(analysis, system, Mover::Kind::translation, use.node);
+  if (!turns) return use;
+  if (const auto turner = analysis.turning_body(use.node); turner >= 0)
+    use.rotation = mover_of(analysis, system, Mover::Kind::body, turner);
+  else
+    use.rotation = mover_of(analysis, system, gyroscopic_.contains(use.node) ? Mover::Kind::gyroscopic : Mover::Kind::rotation, use.node);
+  return use;
+}
+
+void ExplicitLinkages::list_columns(System& system) const {
+  for (auto& member : system.members) {
+    for (const auto& use : member.nodes) {
+      member.movers.push_back(use.translation);
+      if (use.rotation >= 0) member.movers.push_back(use.rotation);
+    }
+    std::ranges::sort(member.movers);
+    member.movers.erase(std::unique(member.movers.begin(), member.movers.end()), member.movers.end());
+    for (const auto m : member.movers)
+      for (int c = 0; c < system.movers[m].size; ++c) member.columns.push_back(system.movers[m].first + c);
+    const auto place = [&](int column) { return static_cast<std::size_t>(std::ranges::lower_bound(member.columns, column) - member.columns.begin()); };
+    for (auto& use : member.nodes) {
+      use.column = place(system.movers[use.translation].first);
+      if (use.rotation < 0) continue;
+      const auto& turner = system.movers[use.rotation];
+      use.rotation_column = place(turner.first + (turner.kind == Mover::Kind::body ? 3 : 0));
+    }
+    member.gradient.resize(member.rows.size() * member.columns.size());
+  }
+  system.row.assign(system.mover_of_column.size(), 0.0);
+}
+
+/// Rows that others imply would leave the multipliers without a single solution.
+void ExplicitLinkages::drop_dependent_rows(const Analysis& analysis, System& system) {
+  find_gradient(analysis, system);
+  find_responses(analysis, system);
+  std::vector<SparseRow> rows;
+  for (const auto& member : system.members)
+    for (std::size_t i = 0; i < member.rows.size(); ++i) {
+      SparseRow row;
+      const double* const line = &member.gradient[i * member.columns.size()];
+      std::size_t k = 0;
+      for (const auto m : member.movers) {
+        const auto& mover = system.movers[m];
+        // Along the directions in which the mover is free; those of bodies and tensors by what they answer to.
+        if (mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation)
+          for (std::size_t d = 0; d < mover.directions.size(); ++d) {
+            const auto& direction = mover.directions[d];
+            row.emplace_back(mover.first + static_cast<int>(d),
+                             line[k] * direction[0] + line[k + 1] * direction[1] + line[k + 2] * direction[2]);
+          }
+        else
+          for (int a = 0; a < mover.size; ++a) {
+            double answer = 0.0;
+            for (int b = 0; b < mover.size; ++b) answer += mover.response(a, b) * line[k + b];
+            const double scale = mover.response(a, a) > 0.0 ? 1.0 / mover.response(a, a) : 0.0;
+            row.emplace_back(mover.first + a, scale * answer);
+          }
+        k += mover.size;
+      }
+      rows.push_back(std::move(row));
+    }
+  const auto dependent = balocco::dependent_rows(rows);
+  std::size_t next = 0;
+  for (auto& member : system.members) {
+    std::vector<int> kept;
+    for (const int row : member.rows)
+      if (dependent[next++])
+        dependent_.push_back(analysis.first_constraint_row[member.constraint] + row);
+      else
+        kept.push_back(row);
+    member.rows = std::move(kept);
+    member.gradient.resize(member.rows.size() * member.columns.size());
+  }
+}
+
+void ExplicitLinkages::number(System& system) const {
+  std::vector<std::vector<std::size_t>> members_of(system.movers.size());
+  for (std::size_t index = 0; index < system.members.size(); ++index) {
+    auto& member = system.members[index];
+    member.first_row = system.rows;
+    system.rows += static_cast<int>(member.rows.size());
+    for (const auto m : member.movers) members_of[m].push_back(index);
+  }
+  for (std::size_t index = 0; index < system.members.size(); ++index) {
+    auto& neighbours = system.members[index].neighbours;
+    for (const auto m : system.members[index].movers)
+      std::ranges::copy_if(members_of[m], std::back_inserter(neighbours), [&](std::size_t other) { return other >= index; });
+    std::ranges::sort(neighbours);
+    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
+  }
+  system.unknowns = system.rows;
+  for (auto& mover : system.movers) {
+    const bool of_node = mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation;
+    if (!of_node || mover.inverse_inertia > 0.0 || mover.directions.empty()) continue;
+    mover.first_unknown = system.unknowns;
+    system.unknowns += static_cast<int>(mover.directions.size());
+  }
+  system.solution.assign(static_cast<std::size_t>(system.unknowns), 0.0);
+  system.residual = system.solution;
+}
+
+void ExplicitLinkages::take_over(const System& system, InverseInertia& inverse) {
+  for (const auto& mover : system.movers) {
+    if (mover.kind == Mover::Kind::translation) {
+      inverse.mass[mover.index] = 0.0;
+      moves_[mover.index] = true;
+    } else if (mover.kind == Mover::Kind::rotation) {
+      inverse.rotary[mover.index] = 0.0;
+      turns_[mover.index] = true;
+    }
+  }
+}
+
+void ExplicitLinkages::report_singular(const Analysis& analysis, const System& system) const {
+  const auto& definition = analysis.model.constraints[system.members.front().constraint];
+  throw AnalysisError(fmt::format(
+      "{}: error: {}: the motion of the linkage that this constraint belongs to is not determined: a node without mass is left free, "
+      "or the linkage stands where its joints no longer act independently; give such nodes a MASS (ROTARYI), or hold them",
+      analysis.model.where({definition.file, definition.line}), definition.keyword));
+}
+
+}  // namespace balocco

@@ -1,0 +1,393 @@
+#include "explicit_linkages.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "constraints/rigid_body.hpp"
+#include "math/rotation.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+Vector3<double> vector(const double* p) { return {{p[0], p[1], p[2]}}; }
+
+Vector3<double> part(const Vector6& six, int first) { return {{six[first], six[first + 1], six[first + 2]}}; }
+
+double component(const Vector6& six, const Point& direction) {
+  return six[0] * direction[0] + six[1] * direction[1] + six[2] * direction[2];
+}
+
+void add(Vector6& six, double factor, const Point& direction) {
+  for (int c = 0; c < 3; ++c) six[c] += factor * direction[c];
+}
+
+/// Systems of more unknowns are solved by a sparse factorisation.
+constexpr int largest_dense = 60;
+constexpr int most_iterations = 8;
+
+}  // namespace
+
+void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) const {
+  for (auto& member : system.members) {
+    const auto& constraint = *analysis.constraints[member.constraint];
+    analysis.find_places(member.constraint, places_);
+    gradient_.resize(static_cast<std::size_t>(constraint.rows() * constraint.columns()));
+    constraint.gradient(places_, gradient_);
+    const std::size_t width = member.columns.size();
+    std::ranges::fill(member.gradient, 0.0);
+    for (std::size_t row = 0; row < member.rows.size(); ++row) {
+      const double* const g = &gradient_[static_cast<std::size_t>(member.rows[row] * constraint.columns())];
+      double* const line = &member.gradient[row * width];
+      for (std::size_t i = 0; i < member.nodes.size(); ++i) {
+        const auto& use = member.nodes[i];
+        for (int c = 0; c < 3; ++c) line[use.column + c] += g[6 * i + c];
+        if (use.carried) {
+          const auto& body = analysis.current.rigid_bodies[system.movers[use.translation].index];
+          const auto moment = cross(rotation_matrix(body) * Vector3<double>{use.offset}, vector(g + 6 * i));
+          for (int c = 0; c < 3; ++c) line[use.column + 3 + c] += moment[c];
+        }
+        for (int c = 0; c < 3 && use.rotation >= 0; ++c) line[use.rotation_column + c] += g[6 * i + 3 + c];
+      }
+    }
+  }
+}
+
+void ExplicitLinkages::find_responses(const Analysis& analysis, System& system) const {
+  for (auto& mover : system.movers) {
+    if (mover.kind == Mover::Kind::body) mover.response = bodies_.response(analysis, static_cast<std::size_t>(mover.index));
+    if (mover.kind == Mover::Kind::gyroscopic) {
+      const auto response = gyroscopic_.response(analysis, mover.index);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) mover.response(i, j) = response(i, j);
+    }
+  }
+}
+
+/// Of [ average G W G^T  G_0 ; G_0^T 0 ]: how gaps change with multipliers, and with the velocities of massless directions.
+void ExplicitLinkages::factorize(const Analysis& analysis, System& system, double average) const {
+  const auto unknowns = static_cast<std::size_t>(system.unknowns);
+  const bool small = system.unknowns <= largest_dense;
+  std::vector<Eigen::Triplet<double>> entries;
+  if (small) system.matrix.assign(unknowns * unknowns, 0.0);
+  const auto set = [&](int i, int j, double value) {
+    if (small)
+      system.matrix[i * unknowns + j] = system.matrix[j * unknowns + i] = value;
+    else if (value != 0.0) {
+      entries.emplace_back(i, j, value);
+      if (i != j) entries.emplace_back(j, i, value);
+    }
+  };
+  for (const auto& member : system.members)
+    for (std::size_t i = 0; i < member.rows.size(); ++i) {
+      const double* const line = &member.gradient[i * member.columns.size()];
+      for (const auto m : member.movers) {
+        const auto& mover = system.movers[m];
+        const double* const g = line + (std::ranges::lower_bound(member.columns, mover.first) - member.columns.begin());
+        for (int a = 0; a < mover.size; ++a) {
+          double sum = 0.0;
+          for (int b = 0; b < mover.size; ++b) sum += mover.response(a, b) * g[b];
+          system.row[mover.first + a] = average * sum;
+        }
+        for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k) {
+          const auto& d = mover.directions[k];
+          set(member.first_row + static_cast<int>(i), mover.first_unknown + static_cast<int>(k), g[0] * d[0] + g[1] * d[1] + g[2] * d[2]);
+        }
+      }
+      for (const auto other_index : member.neighbours) {
+        const auto& other = system.members[other_index];
+        for (std::size_t j = &other == &member ? i : 0; j < other.rows.size(); ++j) {
+          double sum = 0.0;
+          for (std::size_t k = 0; k < other.columns.size(); ++k) sum += other.gradient[j * other.columns.size() + k] * system.row[other.columns[k]];
+          set(member.first_row + static_cast<int>(i), other.first_row + static_cast<int>(j), sum);
+        }
+      }
+      for (const int column : member.columns) system.row[column] = 0.0;
+    }
+  bool sound = true;
+  if (small) {
+    sound = system.factors.factorize(system.matrix, unknowns);
+  } else {
+    Eigen::SparseMatrix<double> matrix(system.unknowns, system.unknowns);
+    matrix.setFromTriplets(entries.begin(), entries.end());
+    if (!system.sparse_factors) {
+      system.sparse_factors = std::make_unique<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
+      system.sparse_factors->analyzePattern(matrix);
+    }
+    system.sparse_factors->factorize(matrix);
+    sound = system.sparse_factors->info() == Eigen::Success;
+  }
+  if (!sound) report_singular(analysis, system);
+  system.factorized_for = average;
+}
+
+/// solution -= matrix^-1 residual.
+void ExplicitLinkages::correct(System& system) const {
+  if (system.sparse_factors) {
+    const Eigen::Map<const Eigen::VectorXd> right(system.residual.data(), system.unknowns);
+    const Eigen::VectorXd correction = system.sparse_factors->solve(right);
+    std::ranges::copy(correction, system.residual.begin());
+  } else {
+    system.factors.solve(system.residual);
+  }
+  for (std::size_t i = 0; i < system.solution.size(); ++i) system.solution[i] -= system.residual[i];
+}
+
+void ExplicitLinkages::find_constraint_forces(System& system) const {
+  for (auto& mover : system.movers) mover.constraint_force.setZero();
+  std::ranges::fill(system.row, 0.0);
+  for (const auto& member : system.members)
+    for (std::size_t i = 0; i < member.rows.size(); ++i)
+      for (std::size_t k = 0; k < member.columns.size(); ++k)
+        system.row[member.columns[k]] += system.solution[member.first_row + i] * member.gradient[i * member.columns.size() + k];
+  for (auto& mover : system.movers)
+    for (int c = 0; c < mover.size; ++c) mover.constraint_force[c] = system.row[mover.first + c];
+  std::ranges::fill(system.row, 0.0);
+}
+
+void ExplicitLinkages::find_base(const Analysis& analysis, System& system, const Instant& instant, const NodalForces& forces) const {
+  const auto& state = analysis.current;
+  for (auto& mover : system.movers) {
+    if (mover.kind == Mover::Kind::body) continue;
+    const bool translates = mover.kind == Mover::Kind::translation;
+    const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(mover.index);
+    const double* const force = (translates ? forces.force : forces.moment) + at;
+    const double* const velocity = (translates ? state.velocity : state.angular_velocity).data() + at;
+    for (int c = 0; c < 3; ++c) {
+      mover.load[c] = force[c];
+      mover.old_velocity[c] = velocity[c];
+    }
+    mover.base.setZero();
+    for (const auto& direction : mover.directions)
+      if (mover.first_unknown < 0)
+        add(mover.base, component(mover.old_velocity, direction) + instant.average() * mover.inverse_inertia * component(mover.load, direction),
+            direction);
+    for (const auto* condition : mover.conditions) add(mover.base, condition->new_velocity, condition->direction);
+  }
+}
+
+void ExplicitLinkages::find_velocities(const Analysis& analysis, System& system, const Instant& instant) const {
+  for (auto& mover : system.movers) {
+    switch (mover.kind) {
+      case Mover::Kind::body:
+        mover.velocity = bodies_.predicted_velocity(analysis, static_cast<std::size_t>(mover.index), instant, mover.constraint_force);
+        break;
+      case Mover::Kind::gyroscopic: {
+        const auto spin = gyroscopic_.predicted_spin(analysis, step_, instant, mover.index, part(mover.load + mover.constraint_force, 0));
+        for (int c = 0; c < 3; ++c) mover.velocity[c] = spin[c];
+        break;
+      }
+      default:
+        mover.velocity = mover.base;
+        for (std::size_t k = 0; k < mover.directions.size(); ++k) {
+          const double change = mover.first_unknown >= 0
+                                    ? system.solution[mover.first_unknown + k]
+                                    : instant.average() * mover.inverse_inertia * component(mover.constraint_force, mover.directions[k]);
+          add(mover.velocity, change, mover.directions[k]);
+        }
+    }
+  }
+}
+
+NodePlace ExplicitLinkages::place_after(const Analysis& analysis, const System& system, const NodeUse& use, double next) const {
+  const auto& state = analysis.current;
+  NodePlace place;
+  const auto& mover = system.movers[use.translation];
+  const auto turn_of = [&](const Vector3<double>& spin) { return rotation_matrix(exponential(next * spin)); };
+  if (mover.kind == Mover::Kind::body) {
+    const auto& body = state.rigid_bodies[mover.index];
+    place.position = Vector3<double>{body.position} + next * part(mover.velocity, 0);
+    if (use.carried) place.position = place.position + turn_of(part(mover.velocity, 3)) * (rotation_matrix(body) * Vector3<double>{use.offset});
+  } else {
+    place.position = vector(&state.position[4 * static_cast<std::size_t>(use.node)]) + next * part(mover.velocity, 0);
+  }
+  if (use.rotation < 0) return place;
+  const auto& turner = system.movers[use.rotation];
+  const auto spin = part(turner.velocity, turner.kind == Mover::Kind::body ? 3 : 0);
+  const double* const q = &state.orientation[4 * static_cast<std::size_t>(use.node)];
+  place.rotation = turn_of(spin) * rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
+  place.turn = vector(&state.rotation[4 * static_cast<std::size_t>(use.node)]) + next * spin;
+  return place;
+}
+
+double ExplicitLinkages::find_residual(const Analysis& analysis, System& system, double next) const {
+  double largest = 0.0;
+  for (const auto& member : system.members) {
+    const auto& constraint = *analysis.constraints[member.constraint];
+    if (next > 0.0) {
+      places_.clear();
+      for (const auto& use : member.nodes) places_.push_back(place_after(analysis, system, use, next));
+      gaps_.resize(static_cast<std::size_t>(constraint.rows()));
+      constraint.gaps(places_, gaps_);
+    }
+    for (std::size_t i = 0; i < member.rows.size(); ++i) {
+      double rate = next > 0.0 ? gaps_[member.rows[i]] / next : 0.0;
+      if (next > 0.0) largest = std::max(largest, std::abs(gaps_[member.rows[i]]));
+      for (std::size_t k = 0; next == 0.0 && k < member.columns.size(); ++k)
+        rate += member.gradient[i * member.columns.size() + k] * system.velocity_at(member.columns[k]);
+      system.residual[member.first_row + i] = rate;
+    }
+  }
+  for (const auto& mover : system.movers)
+    for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k)
+      system.residual[mover.first_unknown + k] = component(mover.load + mover.constraint_force, mover.directions[k]);
+  return largest;
+}
+
+void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, const NodalForces& forces) {
+  constexpr double resolution = 4.0 * std::numeric_limits<double>::epsilon();
+  for (auto& system : systems_) {
+    const bool constant = system.is_linear && system.factorized_for == instant.average();
+    if (!constant) {
+      find_gradient(analysis, system);
+      find_responses(analysis, system);
+      factorize(analysis, system, instant.average());
+    }
+    find_base(analysis, system, instant, forces);
+    std::ranges::fill(system.solution, 0.0);
+    double before = std::numeric_limits<double>::max();
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      find_constraint_forces(system);
+      find_velocities(analysis, system, instant);
+      const double largest = find_residual(analysis, system, instant.next);
+      const bool resolved = largest <= resolution * system.size || (iteration > 1 && largest > 0.5 * before);
+      if (iteration > 0 && (instant.next == 0.0 || resolved)) break;
+      before = largest;
+      correct(system);
+    }
+    for (const auto& member : system.members)
+      for (std::size_t i = 0; i < member.rows.size(); ++i)
+        analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]] = system.solution[member.first_row + i];
+    for (const auto& mover : system.movers)
+      if (mover.kind == Mover::Kind::body) bodies_.add_force(static_cast<std::size_t>(mover.index), mover.constraint_force);
+    system.average = instant.average();
+  }
+}
+
+void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
+  auto& state = analysis.current;
+  for (auto& system : systems_) {
+    find_gradient(analysis, system);
+    find_responses(analysis, system);
+    factorize(analysis, system, 1.0);
+    std::ranges::fill(system.solution, 0.0);
+    std::ranges::fill(system.residual, 0.0);
+    for (auto& mover : system.movers) {
+      const std::size_t at = 4 * static_cast<std::size_t>(mover.index);
+      mover.velocity.setZero();
+      if (mover.kind == Mover::Kind::body)
+        mover.velocity = bodies_.velocity(analysis, static_cast<std::size_t>(mover.index));
+      else
+        std::copy_n(&(mover.kind == Mover::Kind::translation ? state.velocity : state.angular_velocity)[at], 3, mover.velocity.data());
+      if (mover.first_unknown >= 0)
+        for (const auto& direction : mover.directions) add(mover.velocity, -component(mover.velocity, direction), direction);
+      mover.load.setZero();
+      mover.constraint_force.setZero();
+    }
+    find_residual(analysis, system, 0.0);
+    correct(system);
+    find_constraint_forces(system);
+    for (auto& mover : system.movers) {
+      Vector6 change = mover.response * mover.constraint_force;
+      for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k)
+        add(change, system.solution[mover.first_unknown + k], mover.directions[k]);
+      mover.velocity += change;
+      if (mover.kind == Mover::Kind::body) bodies_.set_velocity(analysis, static_cast<std::size_t>(mover.index), mover.velocity);
+    }
+    system.factorized_for = 0.0;
+  }
+  set_velocities(analysis);
+}
+
+void ExplicitLinkages::add_resting_forces(const Analysis& analysis, const NodalForces& forces) {
+  for (auto& system : systems_) {
+    find_gradient(analysis, system);
+    find_responses(analysis, system);
+    factorize(analysis, system, 1.0);
+    std::ranges::fill(system.solution, 0.0);
+    for (auto& mover : system.movers) {
+      const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(mover.index);
+      mover.load.setZero();
+      mover.constraint_force.setZero();
+      if (mover.kind == Mover::Kind::body)
+        mover.load = bodies_.force(static_cast<std::size_t>(mover.index));
+      else
+        std::copy_n((mover.kind == Mover::Kind::translation ? forces.force : forces.moment) + at, 3, mover.load.data());
+      mover.velocity = mover.response * mover.load;  // accelerations, of nodes at rest
+    }
+    find_residual(analysis, system, 0.0);
+    correct(system);
+    find_constraint_forces(system);
+    for (const auto& mover : system.movers) {
+      if (mover.kind == Mover::Kind::body) {
+        bodies_.add_force(static_cast<std::size_t>(mover.index), mover.constraint_force);
+        continue;
+      }
+      double* const sum = (mover.kind == Mover::Kind::translation ? forces.force : forces.moment) + 4 * static_cast<std::ptrdiff_t>(mover.index);
+      for (int c = 0; c < 3; ++c) sum[c] += mover.constraint_force[c];
+    }
+    system.factorized_for = 0.0;
+  }
+}
+
+void ExplicitLinkages::add_to_reactions(NodalConstraints& translations, NodalConstraints& rotations) const {
+  for (const auto& system : systems_)
+    for (const auto& mover : system.movers) {
+      if (mover.conditions.empty()) continue;
+      auto& constraints = mover.kind == Mover::Kind::translation ? translations : rotations;
+      constraints.add_to_reactions(mover.index, part(mover.constraint_force, 0).component);
+    }
+}
+
+void ExplicitLinkages::set_velocities(Analysis& analysis) const {
+  for (const auto& system : systems_)
+    for (const auto& mover : system.movers) {
+      if (mover.kind != Mover::Kind::translation && mover.kind != Mover::Kind::rotation) continue;
+      auto& velocity = mover.kind == Mover::Kind::translation ? analysis.current.velocity : analysis.current.angular_velocity;
+      std::copy_n(mover.velocity.data(), 3, &velocity[4 * static_cast<std::size_t>(mover.index)]);
+    }
+}
+
+void ExplicitLinkages::add_gyroscopic_moments(double* moment) const {
+  for (const auto& system : systems_)
+    for (const auto& mover : system.movers)
+      for (int c = 0; mover.kind == Mover::Kind::gyroscopic && c < 3; ++c)
+        moment[4 * static_cast<std::ptrdiff_t>(mover.index) + c] += mover.constraint_force[c];
+}
+
+void ExplicitLinkages::add_to_output(Analysis& analysis) const {
+  for (const auto& system : systems_)
+    for (const auto& mover : system.movers) {
+      if (mover.kind != Mover::Kind::translation && mover.kind != Mover::Kind::rotation) continue;
+      auto& acceleration = mover.kind == Mover::Kind::translation ? analysis.acceleration : analysis.angular_acceleration;
+      for (int c = 0; c < 3; ++c)
+        acceleration[4 * static_cast<std::size_t>(mover.index) + c] = (mover.velocity[c] - mover.old_velocity[c]) / system.average;
+    }
+}
+
+double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, bool rotation) {
+  const auto kind = rotation ? Mover::Kind::rotation : Mover::Kind::translation;
+  for (auto& system : systems_)
+    for (const auto& mover : system.movers) {
+      if (mover.kind != kind || mover.index != node) continue;
+      if (mover.first_unknown < 0) return mover.inverse_inertia;
+      find_gradient(analysis, system);
+      find_responses(analysis, system);
+      factorize(analysis, system, 1.0);
+      double trace = 0.0;
+      for (std::size_t k = 0; k < mover.directions.size(); ++k) {
+        std::ranges::fill(system.solution, 0.0);
+        std::ranges::fill(system.residual, 0.0);
+        system.residual[mover.first_unknown + k] = 1.0;
+        correct(system);
+        trace += std::abs(system.solution[mover.first_unknown + k]);
+      }
+      system.factorized_for = 0.0;
+      return trace;
+    }
+  return 0.0;
+}
+
+}  // namespace balocco

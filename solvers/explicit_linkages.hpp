@@ -1,0 +1,147 @@
+// Constraints in the explicit loop. The forces that they exert are found together with the motion, so that the places of the nodes
+// at the end of every increment satisfy them to round-off (SHAKE: Ryckaert, Ciccotti, Berendsen 1977; here for nodes, nodes that turn
+// and rigid bodies): no penalty, no drift, no bound on the increment.
+#pragma once
+
+#include <Eigen/Dense>
+#include <Eigen/SparseLU>
+#include <memory>
+#include <vector>
+
+#include "constraints/linkages.hpp"
+#include "explicit_bodies.hpp"
+#include "explicit_gyroscopic.hpp"
+#include "explicit_motion.hpp"
+#include "math/pivoting_solver.hpp"
+
+namespace balocco {
+
+/// Inverse masses and rotary inertias of nodes: zero where there are none, or where something else moves the node.
+struct InverseInertia {
+  std::vector<double> mass, rotary;
+};
+
+/// Nodes in constraints are moved by this class alone; bodies and nodes with inertia tensors get its forces. Every rank that holds a
+/// linkage computes it alike.
+class ExplicitLinkages {
+ public:
+  /// Sets `inverse` to zero for the nodes that linkages move.
+  ExplicitLinkages(const Analysis& analysis, const Step& step, const NodalConstraints& translations, const NodalConstraints& rotations,
+                   GyroscopicNodes& gyroscopic, RigidDynamics& bodies, InverseInertia& inverse);
+
+  bool empty() const { return systems_.empty(); }
+  /// Whether a linkage moves (turns) a local node.
+  bool moves(std::int32_t node) const { return moves_[node]; }
+  bool turns(std::int32_t node) const { return node < static_cast<std::int32_t>(turns_.size()) && turns_[node]; }
+  /// What the nodes had before.
+  const InverseInertia& inverse() const { return inverse_; }
+  /// Bound of the acceleration per force, where the constraints let a node move (turn) that they move.
+  double mobility(const Analysis& analysis, std::int32_t node, bool rotation);
+  /// Rows of State::multiplier, of this rank's linkages, that other constraints and conditions imply.
+  const std::vector<std::int32_t>& dependent_rows() const { return dependent_; }
+
+  /// Velocities at the start of a step: the nearest ones, by mass, that the constraints allow.
+  void make_velocities_consistent(Analysis& analysis);
+  /// Forces that hold the constraints where nothing moves: added to `forces` and to the bodies.
+  void add_resting_forces(const Analysis& analysis, const NodalForces& forces);
+
+  /// When all other forces are known, and what is prescribed over the next increment: finds velocities and constraint forces, gives
+  /// bodies theirs and stores the multipliers.
+  void find_motion(Analysis& analysis, const Instant& instant, const NodalForces& forces);
+  /// Adds the constraint forces on nodes to the reactions of boundary conditions;
+  void add_to_reactions(NodalConstraints& translations, NodalConstraints& rotations) const;
+  /// gives nodes their velocities over the next increment;
+  void set_velocities(Analysis& analysis) const;
+  /// and adds moments on nodes with inertia tensors.
+  void add_gyroscopic_moments(double* moment) const;
+  /// Accelerations of the nodes that linkages move.
+  void add_to_output(Analysis& analysis) const;
+
+ private:
+  /// Something with a velocity of its own: displacement or rotation of a node, or a body with both.
+  struct Mover {
+    enum class Kind { translation, rotation, gyroscopic, body } kind = Kind::translation;
+    std::int32_t index = -1;                                      // local node, or body
+    int first = 0, size = 3;                                      // columns
+    std::vector<Point> directions;                                // nodes: those that are free
+    std::vector<const NodalConstraints::Constraint*> conditions;  // nodes: on the others
+    double inverse_inertia = 0.0;                                 // nodes; 0: massless, its velocities are unknowns
+    int first_unknown = -1;                                       // of these
+    Matrix6 response = Matrix6::Zero();                           // acceleration by force
+    // At the instant:
+    Vector6 base = Vector6::Zero();                               // velocity without constraint forces
+    Vector6 old_velocity = Vector6::Zero(), velocity = Vector6::Zero(), load = Vector6::Zero(), constraint_force = Vector6::Zero();
+  };
+  /// How a node of a constraint moves.
+  struct NodeUse {
+    std::int32_t node = -1;                          // local
+    std::int32_t translation = -1, rotation = -1;    // movers; -1: it does not turn
+    std::size_t column = 0, rotation_column = 0;     // of their velocities among those of the member
+    bool carried = false;                            // by a body, at:
+    Point offset{};
+  };
+  struct Member {
+    std::int32_t constraint = -1;
+    std::vector<NodeUse> nodes;
+    std::vector<int> rows;  // of the constraint that are solved for
+    int first_row = 0;
+    std::vector<std::int32_t> movers;
+    std::vector<int> columns;             // of all its movers, rising
+    std::vector<double> gradient;         // rows x columns
+    std::vector<std::size_t> neighbours;  // members, from itself on, with which it shares movers
+  };
+  struct System {
+    std::vector<Mover> movers;
+    std::vector<Member> members;
+    std::vector<std::pair<std::int32_t, int>> mover_of_column;
+    int rows = 0, unknowns = 0;  // multipliers; these, and velocities of massless directions
+    bool is_linear = true;       // the gradient is the same everywhere
+    double size = 0.0;           // diagonal of the box around its nodes
+    double average = 0.0;        // increment of the last motion
+    std::vector<double> matrix;  // unknowns x unknowns, of small ones
+    PivotingSolver factors;
+    std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> sparse_factors;  // of large ones
+    double factorized_for = 0.0;             // average increment; 0: none
+    std::vector<double> solution, residual;  // multipliers and velocities
+    std::vector<double> row;                 // scratch, a value a column
+
+    double velocity_at(int column) const {
+      const auto [mover, component] = mover_of_column[column];
+      return movers[mover].velocity[component];
+    }
+  };
+
+  void add_system(const Analysis& analysis, const Linkage& linkage);
+  std::int32_t mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index);
+  NodeUse use_of(const Analysis& analysis, System& system, std::int32_t row, bool turns);
+  void find_freedoms(const Analysis& analysis, Mover& mover) const;
+  void list_columns(System& system) const;
+  void drop_dependent_rows(const Analysis& analysis, System& system);
+  void number(System& system) const;
+  void take_over(const System& system, InverseInertia& inverse);
+
+  void find_gradient(const Analysis& analysis, System& system) const;
+  void find_responses(const Analysis& analysis, System& system) const;
+  void factorize(const Analysis& analysis, System& system, double average) const;
+  [[noreturn]] void report_singular(const Analysis& analysis, const System& system) const;
+  void correct(System& system) const;
+  void find_constraint_forces(System& system) const;
+  void find_base(const Analysis& analysis, System& system, const Instant& instant, const NodalForces& forces) const;
+  void find_velocities(const Analysis& analysis, System& system, const Instant& instant) const;
+  /// Gaps at the end of the next increment, over it (velocities, where there is none). @return the largest gap.
+  double find_residual(const Analysis& analysis, System& system, double next) const;
+  NodePlace place_after(const Analysis& analysis, const System& system, const NodeUse& use, double next) const;
+
+  const Step& step_;
+  const NodalConstraints &translations_, &rotations_;
+  GyroscopicNodes& gyroscopic_;
+  RigidDynamics& bodies_;
+  std::vector<System> systems_;
+  std::vector<bool> moves_, turns_;
+  InverseInertia inverse_;
+  std::vector<std::int32_t> dependent_;
+  mutable std::vector<NodePlace> places_;          // scratch
+  mutable std::vector<double> gaps_, gradient_;  // scratch
+};
+
+}  // namespace balocco

@@ -1,0 +1,100 @@
+// Constraints in the equations of a static step: their multipliers are unknowns, their gaps the residual of these.
+#include <algorithm>
+
+#include "implicit_system.hpp"
+
+namespace balocco {
+
+namespace {
+
+constexpr std::array<Point, 3> unit_directions{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 1.0}}};
+
+}  // namespace
+
+/// A node's pair with the first one, and the multipliers in threes. What couples the first node with itself and with the multipliers
+/// is in the first of them.
+template <class Add>
+void ImplicitSystem::for_each_constraint_block(std::size_t local_constraint, Add add) {
+  const auto& constraint = *analysis_.constraints[analysis_.local_constraints[local_constraint]];
+  const auto first_slot = map_.multiplier_slot(local_constraint);
+  const auto local = [&](std::size_t i) { return analysis_.domain.local_node[constraint.nodes()[i]]; };
+  const std::size_t nodes = constraint.nodes().size();
+  for (std::size_t i = nodes == 1 ? 0 : 1; i < nodes; ++i) {
+    motions_.clear();
+    const auto add_node = [&](std::size_t which) {
+      motions_.push_back(map_.motion(local(which)));
+      if (local(which) < analysis_.domain.turning) motions_.push_back(map_.nodal_spin(local(which)));
+    };
+    add_node(0);
+    if (i > 0) add_node(i);
+    for (int row = 0; row < constraint.rows(); row += 3) {
+      NodeMotion multipliers;
+      multipliers.count = std::min(3, constraint.rows() - row);
+      for (int k = 0; k < multipliers.count; ++k) multipliers.slots[k] = first_slot + row + k;
+      std::ranges::copy(unit_directions, multipliers.direction.begin());
+      motions_.push_back(multipliers);
+    }
+    add(i);
+  }
+}
+
+void ImplicitSystem::record_constraints() {
+  for (std::size_t i = 0; i < analysis_.local_constraints.size(); ++i)
+    if (map_.owned(map_.multiplier_slot(i))) for_each_constraint_block(i, [&](std::size_t) { stiffness_.add(motions_, {}); });
+}
+
+void ImplicitSystem::add_constraints() {
+  for (std::size_t i = 0; i < analysis_.local_constraints.size(); ++i)
+    if (map_.owned(map_.multiplier_slot(i))) add_constraint(i);
+}
+
+void ImplicitSystem::add_constraint(std::size_t local_constraint) {
+  const auto index = analysis_.local_constraints[local_constraint];
+  const auto& constraint = *analysis_.constraints[index];
+  const auto rows = static_cast<std::size_t>(constraint.rows()), width = static_cast<std::size_t>(constraint.columns());
+  const std::size_t nodes = constraint.nodes().size();
+  const std::span multipliers(&analysis_.current.multiplier[analysis_.first_constraint_row[index]], rows);
+  analysis_.find_places(index, places_);
+  gaps_.assign(rows, 0.0);
+  gradient_.assign(rows * width, 0.0);
+  curvature_.assign(144 * std::max<std::size_t>(nodes - 1, 1), 0.0);
+  constraint.gaps(places_, gaps_);
+  constraint.gradient(places_, gradient_);
+  constraint.add_curvature(places_, multipliers, curvature_);
+
+  for (std::size_t row = 0; row < rows; ++row) {
+    residual_[map_.multiplier_slot(local_constraint) + row] += gaps_[row];
+    for (std::size_t i = 0; i < nodes; ++i) {
+      const auto node = analysis_.domain.local_node[constraint.nodes()[i]];
+      for (int k = 0; k < (node < analysis_.domain.turning ? 6 : 3); ++k)
+        residual_[map_.slot(node, k)] += multipliers[row] * gradient_[row * width + 6 * i + k];
+    }
+  }
+  for_each_constraint_block(local_constraint, [&](std::size_t i) {
+    const auto turns = [&](std::size_t which) {
+      return analysis_.domain.local_node[constraint.nodes()[which]] < analysis_.domain.turning;
+    };
+    // Columns of the gradient, and of the node's pair in the curvature, that the motions stand for.
+    std::vector<std::size_t> columns, pair;
+    for (const std::size_t which : {std::size_t{0}, i}) {
+      if (which == 0 && !columns.empty()) continue;
+      for (std::size_t k = 0; k < (turns(which) ? 6U : 3U); ++k) {
+        columns.push_back(6 * which + k);
+        pair.push_back((which == 0 ? 0 : 6) + k);
+      }
+    }
+    const std::size_t moving = columns.size(), size = 3 * motions_.size();
+    block_.assign(size * size, 0.0);
+    const double* curvature = &curvature_[i == 0 ? 0 : 144 * (i - 1)];
+    for (std::size_t a = 0; a < moving; ++a) {
+      for (std::size_t b = 0; b < moving; ++b) block_[a * size + b] = curvature[12 * pair[a] + pair[b]];
+      const bool of_first = columns[a] < 6;
+      if (of_first && i > 1) continue;
+      for (std::size_t row = 0; row < rows; ++row)
+        block_[a * size + moving + row] = block_[(moving + row) * size + a] = gradient_[row * width + columns[a]];
+    }
+    stiffness_.add(motions_, block_);
+  });
+}
+
+}  // namespace balocco

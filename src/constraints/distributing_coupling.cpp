@@ -1,0 +1,105 @@
+#include "constraints/distributing_coupling.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace balocco {
+
+DistributingConstraint::DistributingConstraint(const Model& model, const DistributingCoupling& coupling)
+    : weight_(coupling.weights), freedoms_(coupling.freedoms) {
+  nodes_.push_back(coupling.reference);
+  nodes_.insert(nodes_.end(), coupling.nodes.begin(), coupling.nodes.end());
+  rows_ = static_cast<int>(std::ranges::count(freedoms_, true));
+  rotates_ = std::any_of(freedoms_.begin() + 3, freedoms_.end(), [](bool is) { return is; });
+  double sum = 0.0;
+  for (const double weight : weight_) sum += weight;
+  for (double& weight : weight_) weight /= sum;
+  const auto place = [&](std::int32_t row) { return Vector3<double>{model.nodes.coordinates[row]}; };
+  Vector3<double> center{};
+  for (std::size_t i = 0; i < weight_.size(); ++i) center = center + weight_[i] * place(coupling.nodes[i]);
+  double length = 0.0;
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    arm_.push_back(place(coupling.nodes[i]) - center);
+    length += weight_[i] * std::sqrt(dot(arm_.back(), arm_.back()));
+  }
+  if (length > 0.0) lever_ = length;
+  offset_ = place(coupling.reference) - center;
+  rotates_ = rotates_ || dot(offset_, offset_) > 1e-24 * lever_ * lever_;  // a mean that moves an offset turns it
+}
+
+Vector3<double> DistributingConstraint::mean(std::span<const NodePlace> places) const {
+  Vector3<double> center{};
+  for (std::size_t i = 0; i < weight_.size(); ++i) center = center + weight_[i] * places[i + 1].position;
+  return center;
+}
+
+void DistributingConstraint::gaps(std::span<const NodePlace> places, std::span<double> g) const {
+  const auto center = mean(places);
+  const auto& rotation = places[0].rotation;
+  const auto apart = places[0].position - center - rotation * offset_;
+  Vector3<double> moment{};
+  for (std::size_t i = 0; i < weight_.size(); ++i)
+    moment = moment + (weight_[i] / lever_) * cross(rotation * arm_[i], places[i + 1].position - center);
+  std::size_t row = 0;
+  for (int c = 0; c < 6; ++c)
+    if (freedoms_[c]) g[row++] = c < 3 ? apart[c] : moment[c - 3];
+}
+
+void DistributingConstraint::gradient(std::span<const NodePlace> places, std::span<double> dg) const {
+  const auto center = mean(places);
+  const auto& rotation = places[0].rotation;
+  const auto offset = rotation * offset_;
+  std::ranges::fill(dg, 0.0);
+  const auto width = static_cast<std::size_t>(columns());
+  std::size_t row = 0;
+  for (int c = 0; c < 6; ++c) {
+    if (!freedoms_[c]) continue;
+    double* const line = &dg[width * row++];
+    const int j = c % 3, k = (j + 1) % 3, l = (j + 2) % 3;
+    if (c < 3) {
+      line[j] = 1.0;
+      line[3 + k] = -offset[l];  // -(spin x offset)
+      line[3 + l] = offset[k];
+      for (std::size_t i = 0; i < weight_.size(); ++i) line[6 * (i + 1) + j] = -weight_[i];
+      continue;
+    }
+    for (std::size_t i = 0; i < weight_.size(); ++i) {
+      const auto arm = (weight_[i] / lever_) * (rotation * arm_[i]), to = places[i + 1].position - center;
+      // (spin x arm) x to = arm (spin . to) - spin (arm . to)
+      for (int m = 0; m < 3; ++m) line[3 + m] += arm[j] * to[m];
+      line[3 + j] -= dot(arm, to);
+      line[6 * (i + 1) + l] = arm[k];
+      line[6 * (i + 1) + k] = -arm[l];
+    }
+  }
+}
+
+void DistributingConstraint::add_curvature(std::span<const NodePlace> places, std::span<const double> multipliers,
+                                           std::span<double> pairs) const {
+  Vector3<double> force{}, moment{};
+  std::size_t row = 0;
+  for (int c = 0; c < 6; ++c)
+    if (freedoms_[c]) (c < 3 ? force : moment)[c % 3] = multipliers[row++];
+  const auto center = mean(places);
+  const auto& rotation = places[0].rotation;
+  // Virtual spin e and real spin d of a vector b, against c: c . (e x (d x b)) = (e . b)(c . d) - (c . b)(e . d).
+  const auto add_spins = [&](double factor, const Vector3<double>& b, const Vector3<double>& c) {
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) pairs[12 * (3 + i) + 3 + k] += factor * (b[i] * c[k] - (i == k ? dot(b, c) : 0.0));
+  };
+  add_spins(-1.0, rotation * offset_, force);
+  for (std::size_t node = 0; node < weight_.size(); ++node) {
+    const auto arm = (weight_[node] / lever_) * (rotation * arm_[node]);
+    add_spins(1.0, arm, cross(places[node + 1].position - center, moment));
+    double* const pair = &pairs[144 * node];
+    const double along = dot(moment, arm);
+    for (int i = 0; i < 3; ++i)
+      for (int k = 0; k < 3; ++k) {
+        const double value = (i == k ? along : 0.0) - arm[i] * moment[k];  // displacement i of the node, spin k
+        pair[12 * (6 + i) + 3 + k] += value;
+        pair[12 * (3 + k) + 6 + i] += value;
+      }
+  }
+}
+
+}  // namespace balocco

@@ -1,0 +1,31 @@
+// A reference node that moves with the weighted mean of many nodes: forces on it are shared out by weight, moments as forces across
+// the arms, and the nodes stay free to deform. The mean rotation R makes the weighted moment of the nodes about their mean vanish,
+// sum w (R A) x x = 0 with the arms A at the start: the rotation of the polar decomposition of their weighted second moment.
+#pragma once
+
+#include "constraints/constraint.hpp"
+
+namespace balocco {
+
+/// Its first node is the reference node.
+class DistributingConstraint : public Constraint {
+ public:
+  DistributingConstraint(const Model& model, const DistributingCoupling& coupling);
+
+  bool turns(int i) const override { return i == 0 && rotates_; }
+  void gaps(std::span<const NodePlace> places, std::span<double> g) const override;
+  void gradient(std::span<const NodePlace> places, std::span<double> dg) const override;
+  void add_curvature(std::span<const NodePlace> places, std::span<const double> multipliers, std::span<double> pairs) const override;
+
+ private:
+  Vector3<double> mean(std::span<const NodePlace> places) const;
+
+  std::vector<double> weight_;        // of each node but the first; their sum is 1
+  std::vector<Vector3<double>> arm_;  // from the mean to each node at the start
+  Vector3<double> offset_{};          // from the mean to the reference node at the start
+  std::array<bool, 6> freedoms_{};
+  double lever_ = 1.0;                // weighted mean length of the arms: what rows of rotations are divided by
+  bool rotates_ = false;
+};
+
+}  // namespace balocco

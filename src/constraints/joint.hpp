@@ -1,0 +1,39 @@
+// Joints of two nodes: kinematic couplings, multi-point constraints and the kinematic part of connectors, all put together from a few
+// pieces. Every piece is a function of the two frames; its derivatives are those of dual numbers.
+#pragma once
+
+#include "constraints/constraint.hpp"
+
+namespace balocco {
+
+class JointConstraint : public Constraint {
+ public:
+  JointConstraint(const Model& model, const Joint& joint, double model_size);
+
+  bool turns(int i) const override { return turns_[i]; }
+  void gaps(std::span<const NodePlace> places, std::span<double> g) const override;
+  void gradient(std::span<const NodePlace> places, std::span<double> dg) const override;
+  void add_curvature(std::span<const NodePlace> places, std::span<const double> multipliers,
+                     std::span<double> pairs) const override;
+
+ private:
+  template <class T>
+  struct Frame {
+    Vector3<T> position;
+    Matrix3<T> axes;  // rows e1 e2 e3
+  };
+  template <class T>
+  std::array<Frame<T>, 2> frames(std::span<const NodePlace> places, const std::array<Vector3<T>, 2>& displacement,
+                                 const std::array<Matrix3<T>, 2>& turn) const;
+  template <class T>
+  void evaluate(const std::array<Frame<T>, 2>& frames, T* g) const;
+
+  std::vector<Joint::Piece> pieces_;
+  std::array<Matrix3<double>, 2> axes_;  // at the start
+  Vector3<double> offset_{};             // of the second node in the first frame at the start
+  double length_ = 0.0;                  // of it
+  double lever_ = 1.0;                   // what rows of rotations are multiplied by
+  std::array<bool, 2> turns_{};
+};
+
+}  // namespace balocco

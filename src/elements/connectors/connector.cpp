@@ -1,0 +1,396 @@
+#include "elements/connectors/connector.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "constraints/nodal_directions.hpp"
+#include "elements/element_type.hpp"
+#include "math/dual.hpp"
+#include "math/exact_sum.hpp"
+#include "math/rotation.hpp"
+
+namespace balocco {
+
+namespace {
+
+using Slope = Dual<12>;
+using Curvature = Dual<12, Slope>;
+
+// Rows of an element's history.
+constexpr int motion_row = 0, force_row = 6, elastic_row = 12, dissipation_row = 18;
+
+template <class T>
+Vector3<T> axis(const Matrix3<T>& axes, int i) {
+  return {axes(i, 0), axes(i, 1), axes(i, 2)};
+}
+
+template <class T>
+Matrix3<T> first_order_turn(const T& x, const T& y, const T& z) {
+  return {{T(1.0), -z, y, z, T(1.0), -x, -y, x, T(1.0)}};
+}
+
+template <class T>
+Matrix3<T> constant(const Matrix3<double>& matrix) {
+  Matrix3<T> result;
+  for (int i = 0; i < 9; ++i) result.component[i] = T(matrix.component[i]);
+  return result;
+}
+
+double arc_tangent(double y, double x) { return std::atan2(y, x); }
+
+template <int N, class Real>
+Dual<N, Real> arc_tangent(const Dual<N, Real>& y, const Dual<N, Real>& x) {
+  const Real square = x.value * x.value + y.value * y.value;
+  const Real by_y = x.value / square, by_x = -y.value / square;
+  Dual<N, Real> result(arc_tangent(y.value, x.value));
+  for (int i = 0; i < N; ++i) result.derivative[i] = by_y * y.derivative[i] + by_x * x.derivative[i];
+  return result;
+}
+
+double plain(double x) { return x; }
+template <int N, class Real>
+double plain(const Dual<N, Real>& x) {
+  return plain(x.value);
+}
+
+/// The rotation vector of a matrix; near the identity angle / sine by its series, whose derivatives are finite there.
+template <class T>
+Vector3<T> rotation_vector_of(const Matrix3<T>& m) {
+  const Vector3<T> axial{{0.5 * (m(2, 1) - m(1, 2)), 0.5 * (m(0, 2) - m(2, 0)), 0.5 * (m(1, 0) - m(0, 1))}};
+  const T square = dot(axial, axial), cosine = 0.5 * (m(0, 0) + m(1, 1) + m(2, 2) - 1.0);
+  if (plain(square) < 1e-3 && plain(cosine) > 0.0) {
+    const T factor = 1.0 + square * (1.0 / 6.0 + square * (3.0 / 40.0 + square * (15.0 / 336.0 + square * (105.0 / 3456.0))));
+    return factor * axial;
+  }
+  const T sine = square_root(square);
+  return (arc_tangent(sine, cosine) / sine) * axial;
+}
+
+}  // namespace
+
+bool turns_nodes(const Connector& connector) {
+  return connector.translation == Connector::Translation::cartesian || connector.rotation != Connector::Rotation::none;
+}
+
+ConnectorGroup::ConnectorGroup(const GroupInput& input)
+    : ElementGroup(input), connector_(input.model.connectors[input.model.sections[input.section].connector]) {
+  freedoms_per_node_ = turns_nodes(connector_) ? 6 : 3;
+  for (int c = 0; c < 6; ++c) {
+    const auto& component = connector_.component[c];
+    if (component.elasticity) elasticity_[c].emplace(component.elasticity->slope, component.elasticity->table);
+    if (component.damping) damping_[c].emplace(component.damping->slope, component.damping->table);
+  }
+  const ElementTable& table = input.model.elements[table_];
+  for (std::int32_t element = 0; element < size_; ++element) {
+    const auto* node = &table.connectivity[2 * static_cast<std::size_t>(rows_[element])];
+    auto& reference = references_.emplace_back();
+    const auto at = [&](int end) { return Vector3<double>{input.model.nodes.coordinates[node[end]]}; };
+    for (int end = 0; end < 2; ++end) {
+      const auto orientation = connector_.orientation[end] >= 0 ? connector_.orientation[end] : connector_.orientation[0];
+      reference.axes[end] = orientation >= 0 ? local_axes(input.model.orientations[orientation], input.model.nodes.coordinates[node[end]])
+                                             : Matrix3<double>::identity();
+    }
+    const auto arm = at(1) - at(0);
+    reference.offset = reference.axes[0] * arm;
+    reference.length = std::sqrt(dot(arm, arm));
+    measure<double>(reference, {at(0), at(1)}, reference.axes, reference.at_start);
+    for (int c = 0; c < 6; ++c)
+      if (const auto& unloaded = connector_.component[c].reference) {
+        // The deck gives it as a coordinate, a distance or an angle.
+        const bool axial = connector_.translation == Connector::Translation::axial;
+        const double here = c >= 3 ? reference.at_start[c] : axial ? reference.length : reference.offset[c];
+        reference.stretched[c] = here - *unloaded;
+      }
+  }
+}
+
+ConnectorGroup::Place ConnectorGroup::place(std::int32_t element, const NodalMotion& motion) const {
+  Place result;
+  for (int end = 0; end < 2; ++end) {
+    const auto node = std::ptrdiff_t{nodes(element)[end]};
+    const double* const x = motion.position + 4 * node;
+    result.position[end] = {{x[0], x[1], x[2]}};
+    result.rotation[end] = Matrix3<double>::identity();
+    if (!turns()) continue;
+    const double* const q = motion.orientation + 4 * node;
+    result.rotation[end] = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
+  }
+  return result;
+}
+
+/// Translations and angles of the second frame in the first, whose axes are rows.
+template <class T>
+void ConnectorGroup::measure(const Reference& reference, const std::array<Vector3<T>, 2>& position, const std::array<Matrix3<T>, 2>& axes,
+                             std::array<T, 6>& motion) const {
+  const Vector3<T> arm = position[1] - position[0];
+  if (connector_.translation == Connector::Translation::axial) motion[0] = square_root(dot(arm, arm)) - reference.length;
+  if (connector_.translation == Connector::Translation::cartesian)
+    for (int c = 0; c < 3; ++c) motion[c] = dot(axis(axes[0], c), arm) - reference.offset[c];
+  if (connector_.rotation == Connector::Rotation::none) return;
+  const Matrix3<T> m = axes[0] * transpose(axes[1]);  // e_i . f_j
+  if (connector_.rotation == Connector::Rotation::cardan) {
+    motion[3] = arc_tangent(-m(1, 2), m(2, 2));
+    motion[4] = arc_tangent(m(0, 2), square_root(m(1, 2) * m(1, 2) + m(2, 2) * m(2, 2)));
+    motion[5] = arc_tangent(-m(0, 1), m(0, 0));
+  } else if (connector_.rotation == Connector::Rotation::euler) {
+    motion[3] = arc_tangent(m(0, 2), -m(1, 2));
+    motion[4] = arc_tangent(square_root(m(0, 2) * m(0, 2) + m(1, 2) * m(1, 2)), m(2, 2));
+    motion[5] = arc_tangent(m(2, 0), m(2, 1));
+  } else {
+    const auto vector = rotation_vector_of(m);
+    for (int c = 0; c < 3; ++c) motion[3 + c] = vector[c];
+  }
+}
+
+/// Angles go on beyond half a turn: of those that differ by whole turns the one nearest to the last.
+ConnectorGroup::Kinematics ConnectorGroup::kinematics(std::int32_t element, const NodalMotion& motion, std::span<const double> old_motion) const {
+  const auto here = place(element, motion);
+  const auto& reference = references_[element];
+  std::array<Vector3<Slope>, 2> position;
+  std::array<Matrix3<Slope>, 2> axes;
+  for (int end = 0; end < 2; ++end) {
+    const auto seed = [&](int k) { return Slope(0.0, 6 * end + k); };
+    for (int c = 0; c < 3; ++c) position[end][c] = here.position[end][c] + seed(c);
+    axes[end] = constant<Slope>(reference.axes[end] * transpose(here.rotation[end])) *
+                transpose(turns() ? first_order_turn(seed(3), seed(4), seed(5)) : Matrix3<Slope>::identity());
+  }
+  std::array<Slope, 6> measured{};
+  measure(reference, position, axes, measured);
+  Kinematics result;
+  for (int c = 0; c < 6; ++c) {
+    result.motion[c] = measured[c].value - reference.at_start[c];
+    if (c >= 3 && connector_.rotation != Connector::Rotation::none) {
+      constexpr double turn = 2.0 * std::numbers::pi;
+      result.motion[c] += turn * std::round((old_motion[c] - result.motion[c]) / turn);
+    }
+    result.gradient[c] = measured[c].derivative;
+  }
+  return result;
+}
+
+/// stiffness += force . second derivatives, with virtual spins after real ones (as in constraints/joint.cpp).
+void ConnectorGroup::add_curvature(std::int32_t element, const NodalMotion& motion, const Six& force, std::span<double> stiffness) const {
+  const auto here = place(element, motion);
+  const auto& reference = references_[element];
+  std::array<Vector3<Curvature>, 2> position;
+  std::array<Matrix3<Curvature>, 2> axes;
+  for (int end = 0; end < 2; ++end) {
+    const auto real = [&](int k) { return Curvature(Slope(0.0, 6 * end + k)); };
+    const auto virtual_one = [&](int k) {
+      Curvature seed(Slope(0.0));
+      seed.derivative[6 * end + k] = Slope(1.0);
+      return seed;
+    };
+    for (int c = 0; c < 3; ++c) position[end][c] = here.position[end][c] + (real(c) + virtual_one(c));
+    const auto turn = turns() ? first_order_turn(virtual_one(3), virtual_one(4), virtual_one(5)) * first_order_turn(real(3), real(4), real(5))
+                              : Matrix3<Curvature>::identity();
+    axes[end] = constant<Curvature>(reference.axes[end] * transpose(here.rotation[end])) * transpose(turn);
+  }
+  std::array<Curvature, 6> measured{};
+  measure(reference, position, axes, measured);
+  const int size = 2 * freedoms_per_node_;
+  const auto column = [&](int k) { return 6 * (k / freedoms_per_node_) + k % freedoms_per_node_; };
+  for (int c = 0; c < 6; ++c)
+    for (int i = 0; i < size; ++i)
+      for (int j = 0; j < size; ++j) stiffness[size * i + j] += force[c] * measured[c].derivative[column(i)].derivative[column(j)];
+}
+
+ConnectorGroup::Six ConnectorGroup::coupled(const std::vector<double>& matrix, const Six& motion) const {
+  Six force{};
+  std::size_t entry = 0;
+  for (int j = 0; j < 6 && !matrix.empty(); ++j)
+    for (int i = 0; i <= j; ++i) {
+      force[i] += matrix[entry] * motion[j];
+      if (i != j) force[j] += matrix[entry] * motion[i];
+      ++entry;
+    }
+  return force;
+}
+
+/// Relative motion from where there is no force.
+ConnectorGroup::Six ConnectorGroup::stretch(std::int32_t element, const Six& motion) const {
+  Six result = motion;
+  for (int c = 0; c < 6; ++c) result[c] += references_[element].stretched[c];
+  return result;
+}
+
+ConnectorGroup::Pull ConnectorGroup::pull(std::int32_t element, const Six& motion, std::span<const double> old_motion, double increment) const {
+  Pull result;
+  const auto stretched = stretch(element, motion);
+  result.elastic = coupled(connector_.coupled_elasticity, stretched);
+  Six velocity{};
+  for (int c = 0; c < 6 && increment > 0.0; ++c) velocity[c] = (motion[c] - old_motion[c]) / increment;
+  const auto viscous = coupled(connector_.coupled_damping, velocity);
+  for (int c = 0; c < 6; ++c) {
+    Six unit{};
+    unit[c] = 1.0;
+    const auto by_motion = coupled(connector_.coupled_elasticity, unit), by_velocity = coupled(connector_.coupled_damping, unit);
+    for (int i = 0; i < 6; ++i) result.slope[i][c] = by_motion[i] + (increment > 0.0 ? by_velocity[i] / increment : 0.0);
+    if (elasticity_[c]) {
+      const auto [force, slope] = elasticity_[c]->at(stretched[c]);
+      result.elastic[c] += force;
+      result.slope[c][c] += slope;
+    }
+    result.force[c] = result.elastic[c] + viscous[c];
+    if (!damping_[c] || increment <= 0.0) continue;
+    const auto [force, slope] = damping_[c]->at(velocity[c]);
+    result.force[c] += force;
+    result.slope[c][c] += slope / increment;
+  }
+  return result;
+}
+
+void ConnectorGroup::update(const Kinematics& now, const Pull& pulled, std::span<const double> old_history, std::span<double> new_history) const {
+  double dissipated = old_history[dissipation_row];
+  for (int c = 0; c < 6; ++c) {
+    const double viscous = pulled.force[c] - pulled.elastic[c], before = old_history[force_row + c] - old_history[elastic_row + c];
+    dissipated += 0.5 * (viscous + before) * (now.motion[c] - old_history[motion_row + c]);
+    new_history[motion_row + c] = now.motion[c];
+    new_history[force_row + c] = pulled.force[c];
+    new_history[elastic_row + c] = pulled.elastic[c];
+  }
+  new_history[dissipation_row] = dissipated;
+}
+
+void ConnectorGroup::initialize_history(std::span<double> history) const { std::ranges::fill(history, 0.0); }
+void ConnectorGroup::lumped_volume(std::int32_t, std::span<double> volume) const { std::ranges::fill(volume, 0.0); }
+void ConnectorGroup::lumped_rotary_inertia(std::int32_t, std::span<double> inertia) const { std::ranges::fill(inertia, 0.0); }
+void ConnectorGroup::material_rotary_inertia(std::int32_t, std::span<double> tensors) const { std::ranges::fill(tensors, 0.0); }
+
+StableIncrement ConnectorGroup::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle, std::span<double> history) const {
+  for (const auto& run : runs)
+    for (std::int32_t element = run.first; element < std::min(run.last, size_); ++element)
+      if (acts(element)) add_force(element, cycle, history);
+  return {};  // no mass, no frequency: see restraint
+}
+
+void ConnectorGroup::add_force(std::int32_t element, const ExplicitCycle& cycle, std::span<double> history) const {
+  std::array<double, 20> before{}, after{};
+  gather_history(element, history, before);
+  after = before;
+  const auto now = kinematics(element, cycle.motion, std::span(before).first(6));
+  const auto pulled = pull(element, now.motion, std::span(before).first(6), cycle.increment);
+  update(now, pulled, before, after);
+  scatter_history(element, after, history);
+  for (int end = 0; end < 2; ++end) {
+    const auto node = std::ptrdiff_t{nodes(element)[end]};
+    for (int k = 0; k < freedoms_per_node_; ++k) {
+      double value = 0.0;
+      for (int c = 0; c < 6; ++c) value += pulled.force[c] * now.gradient[c][6 * end + k];
+      double* const sum = (k < 3 ? cycle.forces.force : cycle.forces.moment) + 4 * node;
+      sum[k % 3] -= rounded(value, sum[3]);
+    }
+  }
+}
+
+bool ConnectorGroup::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
+                               std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const {
+  const auto now = kinematics(element, motion, old_history.first(6));
+  const auto pulled = pull(element, now.motion, old_history.first(6), motion.increment);
+  update(now, pulled, old_history, new_history);
+  const int size = 2 * freedoms_per_node_;
+  const auto column = [&](int k) { return 6 * (k / freedoms_per_node_) + k % freedoms_per_node_; };
+  std::ranges::fill(force, 0.0);
+  for (int k = 0; k < size; ++k)
+    for (int c = 0; c < 6; ++c) force[k] += pulled.force[c] * now.gradient[c][column(k)];
+  if (stiffness.empty()) return true;
+  std::ranges::fill(stiffness, 0.0);
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j < size; ++j)
+      for (int a = 0; a < 6; ++a)
+        for (int b = 0; b < 6; ++b)
+          stiffness[size * i + j] += now.gradient[a][column(i)] * pulled.slope[a][b] * now.gradient[b][column(j)];
+  add_curvature(element, motion, pulled.force, stiffness);
+  return true;
+}
+
+ElementEnergies ConnectorGroup::energies(std::int32_t element, const NodalMotion&, std::span<const double> history) const {
+  ElementEnergies result;
+  Six motion{};
+  std::copy_n(&history[motion_row], 6, motion.begin());
+  const auto stretched = stretch(element, motion), force = coupled(connector_.coupled_elasticity, stretched);
+  for (int c = 0; c < 6; ++c) {
+    result.strain += 0.5 * force[c] * stretched[c];
+    if (elasticity_[c]) result.strain += elasticity_[c]->integral(stretched[c]);
+  }
+  result.viscous = history[dissipation_row];
+  return result;
+}
+
+namespace {
+
+/// Bound of the largest eigenvalue of the part of a coupled matrix that begins at `first`: its trace.
+double trace(const std::vector<double>& matrix, int first) {
+  double sum = 0.0;
+  for (int j = first; j < first + 3 && !matrix.empty(); ++j) sum += std::abs(matrix[j * (j + 1) / 2 + j]);
+  return sum;
+}
+
+}  // namespace
+
+/// Of components first to first + 2.
+Restraint ConnectorGroup::bound(std::int32_t element, int first) const {
+  Restraint result{.stiffness = trace(connector_.coupled_elasticity, first), .viscosity = trace(connector_.coupled_damping, first)};
+  double stiffest = 0.0, most_viscous = 0.0;
+  for (int c = first; c < first + 3; ++c) {
+    const auto& elastic = elasticity_[c];
+    const auto& viscous = damping_[c];
+    if (elastic) {
+      const bool axial = c < 3 && connector_.translation == Connector::Translation::axial;
+      stiffest = std::max({stiffest, elastic->steepest(), axial ? elastic->tautness(references_[element].length) : 0.0});
+      result.force = std::max(result.force, elastic->largest_force());
+    }
+    if (viscous) {
+      most_viscous = std::max(most_viscous, viscous->steepest());
+      result.force = std::max(result.force, viscous->largest_force());
+    }
+  }
+  result.stiffness += stiffest;
+  result.viscosity += most_viscous;
+  return result;
+}
+
+Restraint ConnectorGroup::restraint(std::int32_t element) const { return bound(element, 0); }
+
+/// Forces on the second node turn the first one by the arm between them.
+Restraint ConnectorGroup::rotary_restraint(std::int32_t element) const {
+  if (!turns()) return {};
+  auto result = bound(element, 3);
+  const auto pulled = bound(element, 0);
+  const double arm = connector_.translation == Connector::Translation::cartesian ? references_[element].length : 0.0;
+  result.stiffness += pulled.stiffness * arm * arm;
+  result.viscosity += pulled.viscosity * arm * arm;
+  result.force += pulled.force * arm;
+  return result;
+}
+
+int ConnectorGroup::point_components(std::string_view variable) const {
+  return variable == "CTF" || variable == "CEF" || variable == "CVF" || variable == "CU" ? 6 : 0;
+}
+
+void ConnectorGroup::point_output(std::string_view variable, std::int32_t, int, const NodalMotion&, std::span<const double> history,
+                                  std::span<double> values) const {
+  for (int c = 0; c < 6; ++c) {
+    if (variable == "CU") values[c] = history[motion_row + c];
+    if (variable == "CTF") values[c] = history[force_row + c];
+    if (variable == "CEF") values[c] = history[elastic_row + c];
+    if (variable == "CVF") values[c] = history[force_row + c] - history[elastic_row + c];
+  }
+}
+
+namespace {
+
+std::unique_ptr<ElementGroup> make_group(const GroupInput& input) { return std::make_unique<ConnectorGroup>(input); }
+
+const RegisterElement connector({.name = "CONN3D2",
+                                 .shape = Shape::line,
+                                 .nodes = 2,
+                                 .section = Section::Kind::connector,
+                                 .faces = {},
+                                 .cycle_cost = 1000,
+                                 .make_group = make_group});
+
+}  // namespace
+
+}  // namespace balocco

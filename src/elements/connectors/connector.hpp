@@ -1,0 +1,84 @@
+// CONN3D2: what resists the relative motions that a connector leaves. What it holds is a constraint (constraints/joint.hpp).
+// Relative motions are functions of the frames of the two nodes; forces are their gradients times the component's force, so they do
+// the same work and balance each other with their moments. Source of the kinds and their components: Abaqus Analysis User's Guide,
+// "Connector elements".
+#pragma once
+
+#include <optional>
+
+#include "elements/element_group.hpp"
+#include "elements/springs/force_curve.hpp"
+#include "math/tensor.hpp"
+
+namespace balocco {
+
+/// Whether the nodes of such a connector turn: it measures or holds something in their frames.
+bool turns_nodes(const Connector& connector);
+
+class ConnectorGroup : public ElementGroup {
+ public:
+  explicit ConnectorGroup(const GroupInput& input);
+
+  int history_size() const override { return 20; }
+  void initialize_history(std::span<double> history) const override;
+  void lumped_volume(std::int32_t element, std::span<double> volume) const override;
+  double density() const override { return 0.0; }
+  void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const override;
+  void material_rotary_inertia(std::int32_t element, std::span<double> tensors) const override;
+  StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle, std::span<double> history) const override;
+  bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history, std::span<double> new_history,
+                 std::span<double> force, std::span<double> stiffness) const override;
+  Restraint restraint(std::int32_t element) const override;
+  Restraint rotary_restraint(std::int32_t element) const override;
+  ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;
+  int integration_points() const override { return 1; }
+  std::size_t bytes_per_element() const override { return sizeof(Reference) + 2 * sizeof(std::int32_t); }
+
+ private:
+  using Six = std::array<double, 6>;
+  struct Reference {
+    std::array<Matrix3<double>, 2> axes;  // of the nodes' frames at the start, rows
+    Vector3<double> offset{};             // of the second node in the first frame
+    double length = 0.0;
+    Six at_start{};                       // what is measured there: relative motions count from it
+    Six stretched{};                      // relative motion at the start from where there is no force
+  };
+  /// Relative motions and their gradients by the 12 motions of the nodes.
+  struct Kinematics {
+    Six motion{};
+    std::array<std::array<double, 12>, 6> gradient{};
+  };
+  struct Pull {
+    Six force{};                                 // elastic and viscous
+    Six elastic{};
+    std::array<Six, 6> slope{};                  // by the relative motions at the end of the increment
+  };
+  struct Place {
+    std::array<Vector3<double>, 2> position;
+    std::array<Matrix3<double>, 2> rotation;
+  };
+
+  Place place(std::int32_t element, const NodalMotion& motion) const;
+  template <class T>
+  void measure(const Reference& reference, const std::array<Vector3<T>, 2>& position, const std::array<Matrix3<T>, 2>& axes,
+               std::array<T, 6>& motion) const;
+  Kinematics kinematics(std::int32_t element, const NodalMotion& motion, std::span<const double> old_motion) const;
+  void add_curvature(std::int32_t element, const NodalMotion& motion, const Six& force, std::span<double> stiffness) const;
+  Six stretch(std::int32_t element, const Six& motion) const;
+  Pull pull(std::int32_t element, const Six& motion, std::span<const double> old_motion, double increment) const;
+  void update(const Kinematics& now, const Pull& pulled, std::span<const double> old_history, std::span<double> new_history) const;
+  Restraint bound(std::int32_t element, int first) const;
+  void add_force(std::int32_t element, const ExplicitCycle& cycle, std::span<double> history) const;
+  bool turns() const { return freedoms_per_node_ == 6; }
+  Six coupled(const std::vector<double>& matrix, const Six& motion) const;
+
+  int point_components(std::string_view variable) const override;
+  void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
+                    std::span<const double> history, std::span<double> values) const override;
+
+  const Connector& connector_;
+  std::vector<Reference> references_;
+  std::array<std::optional<ForceCurve>, 6> elasticity_, damping_;
+};
+
+}  // namespace balocco

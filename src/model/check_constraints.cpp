@@ -1,0 +1,33 @@
+#include "model/check_constraints.hpp"
+
+#include <fmt/format.h>
+
+#include <map>
+
+namespace balocco {
+
+std::vector<std::pair<Location, std::string>> check_constraints(const Model& model) {
+  std::vector<std::pair<Location, std::string>> errors;
+  if (model.constraints.empty()) return errors;
+  std::map<std::int32_t, std::size_t> body_of;  // by node, from the start
+  for (std::size_t index = 0; index < model.rigid_bodies.size(); ++index) {
+    const auto& body = model.rigid_bodies[index];
+    body_of[body.reference_node] = index;
+    for (const auto* nodes : {&body.tie_nodes, &body.pin_nodes})
+      for (const auto node : *nodes) body_of[node] = index;
+  }
+  for (const auto& definition : model.constraints) {
+    const auto* joint = std::get_if<Joint>(&definition.kind);
+    if (joint == nullptr) continue;
+    const auto first = body_of.find(joint->nodes[0]), second = body_of.find(joint->nodes[1]);
+    if (first == body_of.end() || second == body_of.end() || first->second != second->second) continue;
+    errors.emplace_back(Location{definition.file, definition.line},
+                        fmt::format("{}: nodes {} and {} belong to one rigid body, of reference node {}, so that nothing is left to join; join nodes "
+                                    "of two bodies, or remove it",
+                                    definition.keyword, model.node_name(joint->nodes[0]), model.node_name(joint->nodes[1]),
+                                    model.node_name(model.rigid_bodies[first->second].reference_node)));
+  }
+  return errors;
+}
+
+}  // namespace balocco

@@ -1,0 +1,69 @@
+// Equations between the motions of nodes, as a deck says them. Rows of nodes; degrees of freedom count from 0 as in step.hpp.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace balocco {
+
+/// *EQUATION: the sum of coefficient * displacement (rotation) vanishes.
+struct LinearEquation {
+  struct Term {
+    std::int32_t node = -1, dof = 0;
+    double coefficient = 0.0;
+  };
+  std::vector<Term> terms;
+};
+
+/// What joins a second node to a frame that moves with a first one. The frame's `axes` (rows: unit vectors e1 e2 e3 at the start)
+/// turn with the first node; those of the second, f1 f2 f3, `second_axes`, with the second.
+struct Joint {
+  enum class Part {
+    offset,      // the second node keeps its place in the frame: the directions of `along`
+    distance,    // the distance of the nodes stays
+    align,       // no relative rotation about the directions of `along`
+    revolute,    // relative rotation about e1 alone
+    universal,   // e1 stays perpendicular to f3
+    slot,        // the second node keeps its place across e1
+    plane        // and along e1
+  };
+  struct Piece {
+    Part part = Part::offset;
+    std::array<bool, 3> along{true, true, true};  // offset, align
+  };
+  std::array<std::int32_t, 2> nodes{-1, -1};
+  std::vector<Piece> pieces;
+  std::array<std::array<double, 3>, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, second_axes = axes;
+};
+
+/// *COUPLING with *DISTRIBUTING: the reference node moves (`freedoms` 0-2) with the weighted mean of the nodes and turns (3-5)
+/// with their mean rotation, that which leaves no weighted moment of the displacements.
+struct DistributingCoupling {
+  std::int32_t reference = -1;
+  std::vector<std::int32_t> nodes;
+  std::vector<double> weights;  // positive
+  std::array<bool, 6> freedoms{true, true, true, true, true, true};
+};
+
+/// A node that stays where it is between others: x = sum of weight * (x_i + offset at the start), the offset turning with the others
+/// where they turn; and, where `rotations` says so, turns with their weighted mean.
+struct Tie {
+  std::int32_t node = -1;
+  std::vector<std::int32_t> others;
+  std::vector<double> weights;  // their sum is 1
+  bool others_turn = false;     // then all of them do
+  bool rotations = false;
+};
+
+using ConstraintKind = std::variant<LinearEquation, Joint, DistributingCoupling, Tie>;
+
+struct ConstraintDefinition {
+  ConstraintKind kind;
+  std::string keyword;  // "*EQUATION", for messages
+  std::int32_t file = -1, line = 0;
+};
+
+}  // namespace balocco

@@ -1,0 +1,400 @@
+#!/usr/bin/env python3
+"""Constraints, joints and couplings against closed forms and fine integrations: constraint_cases.py CASE BALOCCO FOLDER."""
+import math
+import re
+
+import numpy as np
+
+from explicit_cases import check, check_energy, run_case
+
+G = 9.81
+
+
+def integrate(derivative, state, times):
+    """Runge and Kutta's method in steps far shorter than the sampled times."""
+    states, substeps = [np.array(state, float)], 20
+    for before, after in zip(times[:-1], times[1:]):
+        x, h = states[-1], (after - before) / substeps
+        for _ in range(substeps):
+            k1 = derivative(x)
+            k2 = derivative(x + 0.5 * h * k1)
+            k3 = derivative(x + 0.5 * h * k2)
+            k4 = derivative(x + h * k3)
+            x = x + h / 6.0 * (k1 + 2.0 * k2 + 2.0 * k3 + k4)
+        states.append(x)
+    return np.array(states)
+
+
+def history(nodes, variables, interval):
+    return f"""*OUTPUT, HISTORY, TIME INTERVAL={interval}
+*NODE OUTPUT, NSET={nodes}
+{variables}
+*ENERGY OUTPUT
+ALLKE, ALLIE, ALLWK, ETOTAL
+"""
+
+
+def explicit_step(increment, duration, loads, output):
+    return f"""*STEP
+*DYNAMIC, EXPLICIT, DIRECT USER CONTROL
+{increment}, {duration}
+*BULK VISCOSITY
+0., 0.
+{loads}{output}*END STEP
+"""
+
+
+GRAVITY = f"*DLOAD\n, GRAV, {G}, 0., -1., 0.\n"
+
+
+def masses_on_links(run):
+    """PEND and a double pendulum: point masses on links of 1 m, released level."""
+
+    def swing(x):  # angles below the horizontal, and their rates, of equal masses on equal links
+        a, b, u, v = x
+        matrix = np.array([[2.0, math.cos(a - b)], [math.cos(a - b), 1.0]])
+        right = np.array([2.0 * G * math.cos(a) - v * v * math.sin(a - b), G * math.cos(b) + u * u * math.sin(a - b)])
+        return np.array([u, v, *np.linalg.solve(matrix, right)])
+
+    for ranks in (1, 2):
+        job = run(f"""*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 2., 0., 0.
+*NSET, NSET=BOBS
+2, 3
+*ELEMENT, TYPE=MASS, ELSET=BOBS
+1, 2
+2, 3
+*MASS, ELSET=BOBS
+1.
+*MPC
+LINK, 2, 1
+LINK, 3, 2
+*BOUNDARY
+1, 1, 3
+""" + explicit_step(1e-4, 2.0, GRAVITY, history("BOBS", "U1, U2", 0.02)), ranks)
+        time, x = job.history("node_2", "U1")
+        y = job.history("node_2", "U2")[1]
+        u, v = job.history("node_3", "U1")[1], job.history("node_3", "U2")[1]
+        angles = integrate(swing, [0.0, 0.0, 0.0, 0.0], time)
+        early = time <= 1.0  # it is chaotic later
+        check("way of the first mass", np.abs(1.0 + x - np.cos(angles[:, 0]))[early].max(), 0.0, 1e-5)
+        check("way of the second mass", np.abs(2.0 + u - np.cos(angles[:, 0]) - np.cos(angles[:, 1]))[early].max(), 0.0, 1e-5)
+        check("length of the first link", np.abs(np.hypot(1.0 + x, y) - 1.0).max(), 0.0, 1e-12)
+        check("length of the second link", np.abs(np.hypot(1.0 + u - x, v - y) - 1.0).max(), 0.0, 1e-12)
+        check_energy(job, 1e-4)
+
+
+def rods(points, density=1.0):
+    """Rigid bars between successive points, hinged to each other and, first and last, to the ground where `ground` nodes are put at
+    the same places: the deck down to its steps, and the ids of the bars' centres."""
+    lines = {"node": [], "mass": [], "inertia": [], "rigid": [], "hinge": []}
+    centres = []
+    for i, (a, b) in enumerate(zip(points[:-1], points[1:])):
+        first, second, centre = 10 * i + 11, 10 * i + 12, 10 * i + 13
+        length = math.dist(a, b)
+        middle = [(p + q) / 2 for p, q in zip(a, b)]
+        for node, at in ((first, a), (second, b), (centre, middle)):
+            lines["node"].append(f"{node}, {at[0]!r}, {at[1]!r}, 0.")
+        mass = density * length
+        lines["mass"].append(f"*ELEMENT, TYPE=MASS, ELSET=M{i}\n{1000 + i}, {centre}\n*MASS, ELSET=M{i}\n{mass!r}")
+        inertia = mass * length**2 / 12.0
+        lines["inertia"].append(f"*ELEMENT, TYPE=ROTARYI, ELSET=I{i}\n{2000 + i}, {centre}\n*ROTARY INERTIA, ELSET=I{i}\n{inertia!r}, {inertia!r}, {inertia!r}")
+        lines["rigid"].append(f"*NSET, NSET=ENDS{i}\n{first}, {second}\n*RIGID BODY, REF NODE={centre}, TIE NSET=ENDS{i}")
+        if i > 0:
+            lines["hinge"].append(f"{3000 + i}, {10 * i + 2}, {first}")
+        centres.append(centre)
+    lines["node"].append(f"1, {points[0][0]!r}, {points[0][1]!r}, 0.")
+    lines["hinge"].append("3000, 1, 11")
+    return lines, centres
+
+
+def deck_of_rods(lines, centres, steps):
+    return "\n".join(["*NODE", *lines["node"], *lines["mass"], *lines["inertia"], *lines["rigid"], "*ELEMENT, TYPE=CONN3D2, ELSET=HINGES",
+                      *lines["hinge"], "*ORIENTATION, NAME=ALONG_Z\n0., 0., 1., 1., 0., 0.", "*CONNECTOR SECTION, ELSET=HINGES\nHINGE\nALONG_Z",
+                      "*NSET, NSET=CENTRES\n" + ", ".join(map(str, centres)), "*NSET, NSET=GROUND\n1" + (", 2" if lines.get("closed") else ""),
+                      "*BOUNDARY\nGROUND, 1, 6", steps])
+
+
+def chain_motion(angles, lengths, density=1.0):
+    """Accelerations of a hanging chain of uniform bars by their angles from the x axis."""
+    masses = density * np.array(lengths)
+    n = len(lengths)
+    arm = np.array([[lengths[j] if j < k else lengths[k] / 2 if j == k else 0.0 for j in range(n)] for k in range(n)])
+    coupling = np.einsum("k,ki,kj->ij", masses, arm, arm)
+    pull = G * masses @ arm
+
+    def derivative(x):
+        t, w = x[:n], x[n:]
+        apart = t[:, None] - t[None, :]
+        matrix = coupling * np.cos(apart) + np.diag(masses * np.array(lengths)**2 / 12.0)
+        right = -pull * np.cos(t) - (coupling * np.sin(apart)) @ (w * w)
+        return np.concatenate([w, np.linalg.solve(matrix, right)])
+
+    return derivative
+
+
+def falling_chain(run):
+    """A chain of five hinged bars, held at one end, that falls from level."""
+    lengths = [0.5, 0.4, 0.6, 0.5, 0.3]
+    points = [(sum(lengths[:i]), 0.0) for i in range(6)]
+    for ranks in (1, 3):
+        job = run(deck_of_rods(*rods(points), explicit_step(1e-4, 0.8, GRAVITY, history("CENTRES", "U1, U2, UR3", 0.01))), ranks)
+        time = job.history("node_13", "U1")[0]
+        turn = np.array([job.history(f"node_{10 * i + 13}", "UR3")[1] for i in range(5)]).T
+        expected = integrate(chain_motion(np.zeros(5), lengths), np.zeros(10), time)[:, :5]
+        check("angles of the bars", np.abs(turn - expected).max(), 0.0, 2e-5)
+        x = np.array([job.history(f"node_{10 * i + 13}", "U1")[1] for i in range(5)]).T + [(a[0] + b[0]) / 2 for a, b in zip(points[:-1], points[1:])]
+        joint = np.zeros(len(time))
+        for i, length in enumerate(lengths):  # the ends of the bars meet
+            start = x[:, i] - length / 2 * np.cos(turn[:, i])
+            check(f"gap of joint {i}", np.abs(start - joint).max(), 0.0, 1e-11)
+            joint = x[:, i] + length / 2 * np.cos(turn[:, i])
+        check_energy(job, 1e-4)
+
+
+def four_bar(run):
+    """A closed loop of three bars and the ground with four hinges, some of whose conditions say the same: it swings as it must, by its
+    energy, and its bars stay together."""
+    points = [(0.0, 0.0), (0.0, 0.4), (0.8, 0.7), (0.8, 0.0)]
+    lines, centres = rods(points)
+    lines["closed"] = True
+    lines["node"].append("2, 0.8, 0., 0.")
+    lines["hinge"].append("3009, 32, 2")
+    speed = 4.0
+    # A start that the loop allows: the crank turns, the others follow.
+    a, b, c, d = (np.array(p) for p in points)
+    cross = lambda w, r: w * np.array([-r[1], r[0]])
+    matrix = np.array([cross(1.0, c - b), -cross(1.0, c - d)]).T
+    coupler, rocker = np.linalg.solve(matrix, -cross(speed, b - a))
+    initial = "*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY"
+    for centre, w, pivot, base in zip(centres, (speed, coupler, rocker), (a, b, d), (np.zeros(2), cross(speed, b - a), np.zeros(2))):
+        initial += f"\n{centre}, {w!r}, {base[0]!r}, {base[1]!r}, 0.\n{pivot[0]!r}, {pivot[1]!r}, 0., {pivot[0]!r}, {pivot[1]!r}, 1."
+    for ranks in (1, 2):
+        job = run(deck_of_rods(lines, centres, initial + "\n" + explicit_step(1e-4, 10.0, "", history("CENTRES", "U1, U2, UR3", 0.01))), ranks)
+        x = [np.array(job.history(f"node_{n}", "U1")[1]) + (p[0] + q[0]) / 2 for n, p, q in zip(centres, points[:-1], points[1:])]
+        y = [np.array(job.history(f"node_{n}", "U2")[1]) + (p[1] + q[1]) / 2 for n, p, q in zip(centres, points[:-1], points[1:])]
+        t = [math.atan2(q[1] - p[1], q[0] - p[0]) + job.history(f"node_{n}", "UR3")[1] for n, p, q in zip(centres, points[:-1], points[1:])]
+        end = lambda i, side: np.array([x[i] + side * math.dist(points[i], points[i + 1]) / 2 * np.cos(t[i]),
+                                        y[i] + side * math.dist(points[i], points[i + 1]) / 2 * np.sin(t[i])])
+        check("crank on the ground", np.abs(end(0, -1)).max(), 0.0, 1e-9)
+        check("crank and coupler", np.abs(end(0, 1) - end(1, -1)).max(), 0.0, 1e-9)
+        check("coupler and rocker", np.abs(end(1, 1) - end(2, -1)).max(), 0.0, 1e-9)
+        check("rocker on the ground", np.abs(end(2, 1).T - [0.8, 0.0]).max(), 0.0, 1e-9)
+        check("the loop moves", float(np.ptp(t[0]) > 1.0), 1.0, 0.0)
+        check_energy(job, 1e-4)
+        check("conditions that follow from others are told", float(" from other constraints" in job.log()), 1.0, 0.0)
+
+
+def universal_joint(run):
+    """The speed ratio of Cardan's joint: cos b / (1 - sin^2 b cos^2 a), b the angle between the shafts, a that of the first."""
+    bend, speed = math.radians(30.0), 10.0
+    axis = (math.cos(bend), math.sin(bend), 0.0)
+    deck = f"""*NODE
+1, 0., 0., 0.
+2, 0., 0., 0.
+*ELEMENT, TYPE=MASS, ELSET=M
+1, 1
+2, 2
+*MASS, ELSET=M
+1.
+*ELEMENT, TYPE=ROTARYI, ELSET=I
+3, 1
+4, 2
+*ROTARY INERTIA, ELSET=I
+0.01, 0.01, 0.01
+*NSET, NSET=SECOND
+2
+*TRANSFORM, NSET=SECOND
+{axis[0]!r}, {axis[1]!r}, 0., {-axis[1]!r}, {axis[0]!r}, 0.
+*ELEMENT, TYPE=CONN3D2, ELSET=JOINT
+5, 1, 2
+*ORIENTATION, NAME=CROSS
+0., 0., 1., {axis[0]!r}, {axis[1]!r}, 0.
+*CONNECTOR SECTION, ELSET=JOINT
+UJOINT
+CROSS
+*BOUNDARY
+1, 1, 3
+1, 5, 6
+2, 5, 6
+*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY
+1, {speed}
+0., 0., 0., 1., 0., 0.
+""" + explicit_step(1e-4, 2.0, f"*BOUNDARY, TYPE=VELOCITY\n1, 4, 4, {speed}\n", history("SECOND", "UR", 0.01))
+    for ranks in (1, 2):
+        job = run(deck, ranks)
+        time, turn = job.history("node_2", "UR")
+        along = turn @ np.array(axis)
+        # tan(second) = tan(first) * cos b, from the cross pin of the first shaft that is at right angles to both shafts
+        first = speed * time
+        expected = np.unwrap(np.arctan2(np.sin(first), np.cos(first) * math.cos(bend)))
+        other = np.unwrap(np.arctan2(np.sin(first) * math.cos(bend), np.cos(first)))
+        error = min(np.abs(along - expected).max(), np.abs(along - other).max())
+        check("angle of the second shaft", error, 0.0, 1e-5)
+
+
+
+
+def block(nx, ny, nz, size, origin=(0.0, 0.0, 0.0), first_node=1, first_element=1):
+    """Nodes and bricks of a block, with their ids: nodes by (i, j, k)."""
+    number = lambda i, j, k: first_node + i + (nx + 1) * (j + (ny + 1) * k)
+    nodes = [f"{number(i, j, k)}, {origin[0] + size[0] * i / nx!r}, {origin[1] + size[1] * j / ny!r}, {origin[2] + size[2] * k / nz!r}"
+             for k in range(nz + 1) for j in range(ny + 1) for i in range(nx + 1)]
+    bricks, element = [], first_element
+    for k in range(nz):
+        for j in range(ny):
+            for i in range(nx):
+                corners = [number(i + a, j + b, k + c) for c in (0, 1) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))]
+                bricks.append(f"{element}, " + ", ".join(map(str, corners)))
+                element += 1
+    return nodes, bricks, number
+
+
+STEEL = "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e9, 0.\n*DENSITY\n7800.\n"
+
+
+def bar_with_end(end, dofs_of_load, loads, procedure="*STATIC\n1., 1.\n", nlgeom="", element="C3D8R", extra=""):
+    nodes, bricks, number = block(8, 2, 2, (1.0, 0.1, 0.1))
+    root = [number(0, j, k) for j in range(3) for k in range(3)]
+    return "\n".join(["*NODE, NSET=ALL", *nodes, "1000, 1.2, 0.05, 0.05", f"*ELEMENT, TYPE={element}, ELSET=BAR", *bricks,
+                      "*NSET, NSET=ROOT\n" + ", ".join(map(str, root)),
+                      "*NSET, NSET=END\n1000", "*ELSET, ELSET=LAST, GENERATE\n8, 32, 8", "*SURFACE, NAME=TIP_FACES\nLAST, S4", STEEL + "*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL", end,
+                      "*BOUNDARY\nROOT, 1, 3", extra, f"*STEP{nlgeom}\n{procedure}{loads}", "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=END\nU, UR\n*END STEP\n"])
+
+
+KINEMATIC = "*COUPLING, CONSTRAINT NAME=C, REF NODE=1000, SURFACE=TIP_FACES\n*KINEMATIC\n1, 6"
+DISTRIBUTING = "*COUPLING, CONSTRAINT NAME=C, REF NODE=1000, SURFACE=TIP_FACES\n*DISTRIBUTING"
+
+
+def coupled_tip(run):
+    """A bar of 1 m held at one end: stretched, and bent by a moment on the reference node of its other end, 0.2 m before it. Without
+    lateral contraction couplings change nothing: closed forms, on both kinds of coupling, linear and with large displacements."""
+    area, inertia, modulus = 0.01, 0.1**4 / 12.0, 210e9
+    for ranks, kind, nlgeom in ((1, KINEMATIC, ""), (2, KINEMATIC, ", NLGEOM"), (1, DISTRIBUTING, ""), (2, DISTRIBUTING, ", NLGEOM")):
+        pulled = run(bar_with_end(kind, 1, "*CLOAD\n1000, 1, 1e5\n", nlgeom=nlgeom), ranks)
+        check("stretch", pulled.history("node_1000", "U")[1][-1][0], 1e5 / (area * modulus), 1e-9 if not nlgeom else 1e-4)
+        if nlgeom:
+            continue
+        bent = run(bar_with_end(kind, 6, "*CLOAD\n1000, 6, 1e3\n", element="C3D8R"), ranks)
+        turn = bent.history("node_1000", "UR")[1][-1][2]
+        deflection = bent.history("node_1000", "U")[1][-1][1]
+        # One-point bricks, two across: the hourglass stiffness makes the bar stiffer than the beam.
+        check("moment turns the end and lifts the node before it", deflection / turn, 0.5 + 0.2, 5e-3)
+        check("turn of the end", turn, 1e3 / (modulus * inertia), 0.15)
+
+
+def turned_coupling(run):
+    """Large rotations: a coupled end turned by 90 degrees about the bar's axis carries its nodes along; the iterations converge
+    quadratically."""
+    job = run(bar_with_end(KINEMATIC, 4, "*BOUNDARY\n1000, 4, 4, 1.5707963267948966\n1000, 1, 3\n1000, 5, 6\n", procedure="*STATIC\n0.1, 1., 1e-6, 0.1\n", nlgeom=", NLGEOM"), 2)
+    check("angle", job.history("node_1000", "UR")[1][-1][0], math.pi / 2, 1e-9)
+    residuals = [float(r) for r in re.findall(r"residual \S+ \((\S+) of the forces\)", job.log())]
+    check("the last residual", residuals[-1], 0.0, 1e-9)
+    check("iterations in all", float(len(residuals) <= 70), 1.0, 0.0)
+
+
+def equations(run):
+    """A bar whose end section stays plane by equations; a lever by one equation with three terms; sets in equations."""
+    nodes, bricks, number = block(4, 1, 1, (1.0, 0.1, 0.1))
+    end = [number(4, j, k) for j in range(2) for k in range(2)]
+    root = [number(0, j, k) for j in range(2) for k in range(2)]
+    deck = "\n".join(["*NODE, NSET=ALL", *nodes, "900, 0., 0., 0.", "901, 0., 0., 0.", "*ELEMENT, TYPE=C3D8R, ELSET=BAR", *bricks,
+                      "*NSET, NSET=FOLLOWERS\n" + ", ".join(map(str, end[1:])), "*NSET, NSET=ROOT\n" + ", ".join(map(str, root)), "*NSET, NSET=END\n900, 901",
+                      STEEL + "*SOLID SECTION, ELSET=BAR, MATERIAL=STEEL",
+                      f"*EQUATION\n2\nFOLLOWERS, 1, 1., {end[0]}, 1, -1.\n3\n{end[0]}, 1, 1.,\n900, 1, -2., 901, 1, -1.",
+                      "*BOUNDARY\nROOT, 1, 3\n901, 2, 3\n900, 2, 3", "*STEP\n*STATIC\n*BOUNDARY\n901, 1, 1, 1e-5\n*CLOAD\n900, 1, 2e4",
+                      "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=END\nU1, RF1\n*END STEP\n"])
+    for ranks in (1, 2):
+        job = run(deck, ranks)
+        # The end moves by 2 u900 + u901 and takes half of the force on 900, as a lever; the bar's stiffness is 2.1e9 N/m.
+        end_motion = 1e4 / (210e9 * 0.01)
+        check("free end of the lever", job.history("node_900", "U1")[1][-1], (end_motion - 1e-5) / 2.0, 1e-8)
+        check("held end of the lever", job.history("node_901", "RF1")[1][-1], 1e4, 1e-8)
+
+
+def tied_blocks(run):
+    """Two blocks tied along a face: meshes that match are as if they shared their nodes; others miss the uniform stress a little, less
+    on a finer mesh."""
+
+    def stretch(divisions, others, ranks):
+        lower, bricks, number = block(divisions, divisions, 1, (1.0, 1.0, 1.0))
+        upper, more, other = block(others, others, 1, (1.0, 1.0, 1.0), (0.0, 0.0, 1.0), 5001, 5001)
+        low = [number(i, j, 0) for i in range(divisions + 1) for j in range(divisions + 1)]
+        high = [other(i, j, 1) for i in range(others + 1) for j in range(others + 1)]
+        deck = "\n".join(["*NODE, NSET=ALL", *lower, *upper, "*ELEMENT, TYPE=C3D8, ELSET=LOWER", *bricks, "*ELEMENT, TYPE=C3D8, ELSET=UPPER", *more,
+                          "*ELSET, ELSET=BOTH\nLOWER, UPPER", "*NSET, NSET=LOW\n" + ",\n".join(map(str, low)), "*NSET, NSET=HIGH\n" + ",\n".join(map(str, high)),
+                          "*SURFACE, NAME=TOP\nLOWER, S2", "*SURFACE, NAME=BOTTOM\nUPPER, S1", "*SURFACE, NAME=PULLED\nUPPER, S2",
+                          "*TIE, NAME=GLUE\nBOTTOM, TOP", "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e9, 0.3", "*SOLID SECTION, ELSET=BOTH, MATERIAL=STEEL",
+                          f"*BOUNDARY\nLOW, 3\n{number(0, 0, 0)}, 1, 2\n{number(divisions, 0, 0)}, 2", "*STEP\n*STATIC\n*DSLOAD\nPULLED, P, -210e6",
+                          "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=HIGH\nU3\n*END STEP\n"])
+        job = run(deck, ranks)
+        return np.array([job.history(f"node_{node}", "U3")[1][-1] for node in high])
+
+    check("matching meshes", np.abs(stretch(3, 3, 1) / 2e-3 - 1.0).max(), 0.0, 1e-10)
+    coarse, fine = np.abs(stretch(2, 3, 2) / 2e-3 - 1.0).max(), np.abs(stretch(6, 9, 2) / 2e-3 - 1.0).max()
+    print(f"     meshes that do not match: {coarse:.3e}, three times finer {fine:.3e}")
+    check("meshes that do not match", coarse, 0.0, 0.1)
+    check("they come nearer on finer meshes", float(fine < 0.5 * coarse), 1.0, 0.0)
+
+
+def rest_with_constraints(run):
+    """A loaded equilibrium with couplings, an equation and a bushing goes on explicitly at rest."""
+    for ranks, kind in ((1, KINEMATIC), (2, DISTRIBUTING)):
+        extra = "\n".join(["*NODE\n1001, 1.3, 0.05, 0.05\n1002, 1.3, 0.05, 0.05", "*ELEMENT, TYPE=CONN3D2, ELSET=BUSH\n9001, 1000, 1002",
+                           "*ELEMENT, TYPE=MASS, ELSET=END_MASS\n9002, 1002\n*MASS, ELSET=END_MASS\n5.",
+                           "*ELEMENT, TYPE=ROTARYI, ELSET=END_INERTIA\n9003, 1002\n*ROTARY INERTIA, ELSET=END_INERTIA\n0.1, 0.1, 0.1",
+                           "*CONNECTOR BEHAVIOR, NAME=RUBBER", *[f"*CONNECTOR ELASTICITY, COMPONENT={c}\n{1e6 if c < 4 else 1e4}" for c in range(1, 7)],
+                           "*CONNECTOR SECTION, ELSET=BUSH, BEHAVIOR=RUBBER\nBUSHING", "*EQUATION\n2\n1001, 1, 1., 1002, 1, -1.",
+                           "*BOUNDARY\n1001, 2, 3"])
+        deck = bar_with_end(kind, 1, "*CLOAD\n1002, 1, 1e4\n1002, 2, 3e3\n1002, 6, 200.\n", nlgeom=", NLGEOM", extra=extra)
+        deck += """*STEP
+*DYNAMIC, EXPLICIT
+, 5e-4
+*OUTPUT, HISTORY, FREQUENCY=10
+*NODE OUTPUT, NSET=END
+U, UR
+*ENERGY OUTPUT
+ALLKE, ALLIE, ALLWK, ETOTAL
+*END STEP
+"""
+        job = run(deck, ranks)
+        found = re.search(r"\|f_int \+ f_contact - f_ext\| / \|f_ext\| = (\S+)", job.log())
+        check("imbalance at import", float(found.group(1)), 0.0, 1e-8)
+        u = job.history("node_1000", "U", 2)[1]
+        check("drift of the coupled node", np.abs(u - u[0]).max() / np.abs(u[0]).max(), 0.0, 1e-6)
+
+
+def same_bits(run):
+    """Two tied blocks, the upper one coupled to a node on which a body hangs by a hinge, thrown about: the same bits on any number of
+    ranks."""
+    lower, bricks, number = block(4, 4, 2, (1.0, 1.0, 0.5))
+    upper, more, other = block(3, 3, 2, (1.0, 1.0, 0.5), (0.0, 0.0, 0.5), 501, 501)
+    high = [other(i, j, 2) for i in range(4) for j in range(4)]
+    deck = "\n".join(["*NODE, NSET=ALL", *lower, *upper, "900, 0.5, 0.5, 1.3", "901, 0.5, 0.5, 1.3", "902, 0.7, 0.6, 1.8",
+                      "*ELEMENT, TYPE=C3D8R, ELSET=LOWER", *bricks, "*ELEMENT, TYPE=C3D8R, ELSET=UPPER", *more, "*ELSET, ELSET=BOTH\nLOWER, UPPER",
+                      "*NSET, NSET=HIGH\n" + ", ".join(map(str, high)), "*NSET, NSET=BOB\n902", "*NSET, NSET=LINK\n901",
+                      "*SURFACE, NAME=TOP\nLOWER, S2", "*SURFACE, NAME=BOTTOM\nUPPER, S1", "*TIE, NAME=GLUE\nBOTTOM, TOP",
+                      "*SURFACE, TYPE=NODE, NAME=HIGH_NODES\nHIGH", "*COUPLING, CONSTRAINT NAME=C, REF NODE=900, SURFACE=HIGH_NODES\n*DISTRIBUTING",
+                      "*ELEMENT, TYPE=MASS, ELSET=M\n2001, 902\n*MASS, ELSET=M\n50.",
+                      "*ELEMENT, TYPE=ROTARYI, ELSET=I\n2002, 902\n*ROTARY INERTIA, ELSET=I\n2., 3., 4.", "*RIGID BODY, REF NODE=902, TIE NSET=LINK",
+                      "*ELEMENT, TYPE=CONN3D2, ELSET=HINGE\n2003, 900, 901", "*ORIENTATION, NAME=ACROSS\n0., 1., 0., 0., 0., 1.",
+                      "*CONNECTOR BEHAVIOR, NAME=TORSION\n*CONNECTOR ELASTICITY, COMPONENT=4\n1e4\n*CONNECTOR DAMPING, COMPONENT=4\n10.",
+                      "*CONNECTOR SECTION, ELSET=HINGE, BEHAVIOR=TORSION\nHINGE\nACROSS",
+                      "*MATERIAL, NAME=SOFT\n*HYPERELASTIC, NEO HOOKE\n1e5, 1e-6\n*DENSITY\n1000.", "*SOLID SECTION, ELSET=BOTH, MATERIAL=SOFT",
+                      "*INITIAL CONDITIONS, TYPE=VELOCITY\nBOB, 1, 2.\nHIGH, 3, 1.", "*STEP\n*DYNAMIC, EXPLICIT\n, 0.05",
+                      "*OUTPUT, HISTORY, TIME INTERVAL=1e-3\n*NODE OUTPUT, NSET=ALL\nU\n*NODE OUTPUT, NSET=BOB\nU, UR\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ETOTAL\n*END STEP\n"])
+    jobs = [run(deck, ranks) for ranks in (1, 2, 3)]
+    check_energy(jobs[0], 1e-2)
+    for job in jobs[1:]:
+        for node in (number(2, 2, 2), other(1, 1, 0), other(0, 0, 2), 902):
+            same = np.array_equal(jobs[0].history(f"node_{node}", "U")[1], job.history(f"node_{node}", "U")[1])
+            check(f"bits of node {node}", float(same), 1.0, 0.0)
+    moved = np.abs(jobs[0].history("node_902", "U")[1]).max()
+    check("the body moves", float(moved > 0.05), 1.0, 0.0)
+
+
+if __name__ == "__main__":
+    run_case({case.__name__: case for case in (masses_on_links, falling_chain, four_bar, universal_joint, coupled_tip, turned_coupling, equations,
+                                               tied_blocks, rest_with_constraints, same_bits)})
