@@ -24,7 +24,8 @@ struct Partition {
   std::vector<std::int32_t> part;  // of each element
   std::vector<bool> reference;     // per model node: reference node of a rigid body
   std::vector<bool> turns;         // per model node
-  std::vector<std::int32_t> owner; // of each model node: lowest rank whose elements touch it, rank 0 where none does
+
+  std::vector<std::int32_t> owner;  // of each model node: lowest rank whose elements touch it, rank 0 where none does
   /// Nodes of each linkage, all of which are on all of its ranks.
   struct Shared {
     std::vector<std::int32_t> nodes;
@@ -102,66 +103,37 @@ Partition make_partition(const Model& model, const Communicator& communicator, c
   return partition;
 }
 
-/// Fills node_row, local_node, owned and turning: nodes that turn first, along the Hilbert curve, reference nodes last.
-void number_nodes(const Partition& partition, int rank, Domain& domain) {
-  const auto& nodes = partition.model.nodes;
-  const auto& owner = partition.owner;
-  std::vector<bool> present = partition.reference;
+/// Per model node: whether an element of this rank touches it.
+std::vector<bool> touched_nodes(const Partition& partition, int rank) {
+  std::vector<bool> touched(static_cast<std::size_t>(partition.model.nodes.size()), false);
   for (std::size_t e = 0; e < partition.elements.size(); ++e)
     if (partition.part[e] == rank)
-      for (const std::int32_t node : partition.nodes(e)) present[node] = true;
-  for (const auto& linkage : partition.linkages)
-    if (linkage.ranks.contains(rank))
-      for (const auto node : linkage.nodes) present[node] = true;
-
-  struct Place {
-    bool stays_upright, reference;
-    std::uint64_t curve;
-    std::int32_t row;
-    auto operator<=>(const Place&) const = default;
-  };
-  const BoundingBox box = bounding_box(nodes.coordinates);
-  std::vector<Place> places;
-  for (std::int32_t row = 0; row < nodes.size(); ++row)
-    if (present[row] || owner[row] == rank)
-      places.push_back({!partition.turns[row], partition.reference[row], hilbert_index(nodes.coordinates[row], box), row});
-  std::sort(places.begin(), places.end());
-
-  domain.local_node.assign(static_cast<std::size_t>(nodes.size()), -1);
-  for (const auto& place : places) {
-    domain.local_node[place.row] = domain.size();
-    domain.node_row.push_back(place.row);
-    domain.owned.push_back(owner[place.row] == rank);
-    if (!place.stays_upright) ++domain.turning;
-  }
+      for (const std::int32_t node : partition.nodes(e)) touched[node] = true;
+  return touched;
 }
 
-/// Nodes shared with each other rank, by model row on both sides.
-std::vector<SharedNodes> shared_nodes(const Partition& partition, const Communicator& communicator,
-                                      const Domain& domain) {
-  std::map<int, std::vector<std::int32_t>> rows;  // other rank -> model rows
+/// Model rows of the nodes shared with each other rank, in the same order on both sides: rank -> rows.
+std::map<int, std::vector<std::int32_t>> shared_rows(const Partition& partition, const Communicator& communicator) {
+  const auto touched = touched_nodes(partition, communicator.rank());
+  std::map<int, std::vector<std::int32_t>> shared;
   for (std::size_t e = 0; e < partition.elements.size(); ++e) {
     if (partition.part[e] == communicator.rank()) continue;
     for (const std::int32_t node : partition.nodes(e))
-      if (domain.local_node[node] >= 0 && !partition.reference[node]) rows[partition.part[e]].push_back(node);
+      if (touched[node] && !partition.reference[node]) shared[partition.part[e]].push_back(node);
   }
   for (int other = 0; other < communicator.size(); ++other)
     if (other != communicator.rank())
-      for (const auto& body : partition.model.rigid_bodies) rows[other].push_back(body.reference_node);
+      for (const auto& body : partition.model.rigid_bodies) shared[other].push_back(body.reference_node);
   for (const auto& linkage : partition.linkages) {
     if (!linkage.ranks.contains(communicator.rank())) continue;
     for (const auto other : linkage.ranks)
-      if (other != communicator.rank()) rows[other].insert(rows[other].end(), linkage.nodes.begin(), linkage.nodes.end());
+      if (other != communicator.rank()) shared[other].insert(shared[other].end(), linkage.nodes.begin(), linkage.nodes.end());
   }
-
-  std::vector<SharedNodes> neighbours;
-  for (auto& [rank, list] : rows) {
-    std::sort(list.begin(), list.end());
-    list.erase(std::unique(list.begin(), list.end()), list.end());
-    for (auto& node : list) node = domain.local_node[node];
-    neighbours.push_back({rank, std::move(list)});
+  for (auto& [rank, rows] : shared) {
+    std::sort(rows.begin(), rows.end());
+    rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   }
-  return neighbours;
+  return shared;
 }
 
 Point centroid(const Model& model, std::span<const std::int32_t> nodes) {
@@ -197,11 +169,38 @@ std::vector<Placed> ordered_elements(const Partition& partition, int rank, const
   return order;
 }
 
-void make_groups(const Partition& partition, int rank, const std::vector<SharedNodes>& neighbours, Domain& domain) {
-  std::vector<bool> is_shared(static_cast<std::size_t>(partition.model.nodes.size()), false);
-  for (const auto& neighbour : neighbours)
-    for (const std::int32_t node : neighbour.nodes) is_shared[domain.node_row[node]] = true;
-  for (const auto& placed : ordered_elements(partition, rank, is_shared)) {
+/// Fills node_row, local_node, owned and turning: nodes that turn first, reference nodes last, each kind in the order in which the
+/// elements come to them, so that a pass over the elements meets new nodes one after the other in memory.
+void number_nodes(const Partition& partition, int rank, std::span<const Placed> order, Domain& domain) {
+  const auto count = partition.model.nodes.size();
+  std::vector<bool> present(static_cast<std::size_t>(count), false);
+  const auto add = [&](std::int32_t row) {
+    if (!present[row]) domain.node_row.push_back(row);
+    present[row] = true;
+  };
+  for (const auto& placed : order)
+    for (const std::int32_t node : partition.nodes(placed.element)) add(node);
+  const auto& owner = partition.owner;
+  for (const auto& linkage : partition.linkages)
+    if (linkage.ranks.contains(rank))
+      for (const auto row : linkage.nodes) add(row);
+  for (std::int32_t row = 0; row < count; ++row)
+    if (partition.reference[row] || owner[row] == rank) add(row);
+  std::ranges::stable_sort(domain.node_row, {}, [&](std::int32_t row) {
+    return std::pair<bool, bool>(!partition.turns[row], partition.reference[row]);
+  });
+
+  domain.local_node.assign(static_cast<std::size_t>(count), -1);
+  for (std::int32_t node = 0; node < domain.size(); ++node) {
+    const auto row = domain.node_row[node];
+    domain.local_node[row] = node;
+    domain.owned.push_back(owner[row] == rank);
+    if (partition.turns[row]) ++domain.turning;
+  }
+}
+
+void make_groups(const Partition& partition, std::span<const Placed> order, Domain& domain) {
+  for (const auto& placed : order) {
     auto& groups = domain.groups;
     if (groups.empty() || groups.back().table != placed.table || groups.back().section != placed.section)
       groups.push_back({.model = partition.model,
@@ -223,10 +222,20 @@ void make_groups(const Partition& partition, int rank, const std::vector<SharedN
 
 Domain make_domain(const Model& model, const Communicator& communicator, const Partitioner& partitioner) {
   const Partition partition = make_partition(model, communicator, partitioner);
+  const auto shared = shared_rows(partition, communicator);
+  std::vector<bool> is_shared(static_cast<std::size_t>(model.nodes.size()), false);
+  for (const auto& [rank, rows] : shared)
+    for (const std::int32_t row : rows) is_shared[row] = true;
+  const auto order = ordered_elements(partition, communicator.rank(), is_shared);
+
   Domain domain;
-  number_nodes(partition, communicator.rank(), domain);
-  auto neighbours = shared_nodes(partition, communicator, domain);
-  make_groups(partition, communicator.rank(), neighbours, domain);
+  number_nodes(partition, communicator.rank(), order, domain);
+  make_groups(partition, order, domain);
+  std::vector<SharedNodes> neighbours;
+  for (const auto& [rank, rows] : shared) {
+    neighbours.push_back({rank, {}});
+    for (const std::int32_t row : rows) neighbours.back().nodes.push_back(domain.local_node[row]);
+  }
   domain.halo = std::make_unique<Halo>(communicator, std::move(neighbours), domain.turning, Halo::Tag::domain);
   return domain;
 }

@@ -103,6 +103,9 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
                                              PointBatch<PointKind::solid>& points, std::span<double> history) const {
   const PackReference reference{records_.data() + static_cast<std::size_t>(element) * brick_record::size};
   prefetch_record(reference.data + pack_size * brick_record::size, brick_record::size);
+  if (const auto next = element + pack_size; next < padded_size_)
+    prefetch_nodes(&connectivity_[static_cast<std::size_t>(next) * nodes_per_brick], pack_size * nodes_per_brick, cycle.motion.position,
+                   cycle.forces.force);
   const HexahedronCoefficients<Pack> c = coefficients(gather_nodes(element, cycle.motion.position));
   const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
   for (int k = 0; k < 9; ++k) store(f.component[k], points.strain[k]);
