@@ -103,7 +103,7 @@ void JobObserver::Implementation::start(const ResultSource& running, std::int32_
                         FrameWriter(model, communicator, domain, running.groups())});
   for (const std::string& complaint : complaints) status->log(complaint);
   for (const FieldOutput& output : current().field_outputs) plan->fields.push_back(Schedule::of(output, current()));
-  if (!current().has_few_increments()) plan->status = Schedule::at_leisure(status_lines, duration);
+  if (!current().has_few_increments()) plan->status = Schedule::at_leisure(status_lines, duration, regular_increments);
 
   status->start_step(step, state);
   last = Progress{};

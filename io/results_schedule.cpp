@@ -7,6 +7,13 @@
 
 namespace balocco {
 
+namespace {
+
+/// Between frames that nobody asked for: one costs as much as 20 to 60 increments.
+constexpr std::int64_t increments_per_frame = 10 * regular_increments;
+
+}  // namespace
+
 Schedule Schedule::every(double interval, double duration) {
   Schedule schedule;
   schedule.duration_ = duration;
@@ -21,9 +28,9 @@ Schedule Schedule::equal_intervals(std::int32_t count, double duration) {
   return schedule;
 }
 
-Schedule Schedule::at_leisure(std::int32_t count, double duration) {
+Schedule Schedule::at_leisure(std::int32_t count, double duration, std::int64_t increments) {
   Schedule schedule = equal_intervals(count, duration);
-  schedule.at_leisure_ = true;
+  schedule.leisure_ = increments;
   return schedule;
 }
 
@@ -47,13 +54,14 @@ Schedule Schedule::of(const FieldOutput& output, const Step& step) {
   if (output.time_interval) return every(*output.time_interval, step.duration());
   if (output.number_interval) return equal_intervals(*output.number_interval, step.duration());
   if (output.frequency) return every_increments(*output.frequency, step.duration());
-  return at(output.time_points, step.duration());
+  if (!output.time_points.empty()) return at(output.time_points, step.duration());
+  return at_leisure(20, step.duration(), increments_per_frame);
 }
 
 Schedule Schedule::of(const HistoryOutput& output, const Step& step) {
   if (output.time_interval) return every(*output.time_interval, step.duration());
   if (output.frequency) return every_increments(*output.frequency, step.duration());
-  if (!step.has_few_increments()) return at_leisure(200, step.duration());
+  if (!step.has_few_increments()) return at_leisure(200, step.duration(), regular_increments);
   return every_increments(1, step.duration());
 }
 
@@ -72,7 +80,7 @@ double Schedule::mark(std::int64_t index) const {
 bool Schedule::due(double step_time, std::int64_t increment, bool finished) const {
   if (finished) return true;
   if (increments_ > 0) return increment % increments_ == 0;
-  if (at_leisure_ && increment % regular_increments != 0) return false;
+  if (leisure_ > 0 && increment % leisure_ != 0) return false;
   return step_time >= mark(next_index_) - tolerance_;
 }
 
@@ -83,7 +91,7 @@ void Schedule::pass(double step_time) {
 
 double Schedule::next() const {
   if (increments_ > 0) return 0.0;
-  return at_leisure_ ? duration_ : mark(next_index_) - tolerance_;
+  return leisure_ > 0 ? duration_ : mark(next_index_) - tolerance_;
 }
 
 }  // namespace balocco

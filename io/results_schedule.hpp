@@ -11,14 +11,15 @@ namespace balocco {
 /// The marks of one request within a step of `duration`. The end of the step is always a mark.
 class Schedule {
  public:
+  /// Where nothing was said, an explicit step has 20 intervals of frames and 200 of histories (Abaqus), at leisure: frames in
+  /// increments that are multiples of 1000, rows in multiples of regular_increments. A static step: all increments.
   static Schedule of(const FieldOutput& output, const Step& step);
-  /// Where nothing was said: every static increment, 200 intervals of an explicit step (Abaqus), at leisure.
   static Schedule of(const HistoryOutput& output, const Step& step);
   static Schedule every(double interval, double duration);
   static Schedule equal_intervals(std::int32_t count, double duration);
-  /// As equal_intervals, but only at increments in which an explicit step calls its observer anyhow (regular_increments): what
-  /// nobody asked for must cost nothing.
-  static Schedule at_leisure(std::int32_t count, double duration);
+  /// As equal_intervals, but only in increments that are multiples of `increments`, itself a multiple of regular_increments, in which
+  /// an explicit step calls its observer anyhow: what nobody asked for must cost nothing.
+  static Schedule at_leisure(std::int32_t count, double duration, std::int64_t increments);
   static Schedule at(std::vector<double> times, double duration);
   static Schedule every_increments(std::int32_t count, double duration);
 
@@ -37,7 +38,7 @@ class Schedule {
   std::int64_t count_ = 0;          // number of equal intervals, or
   std::vector<double> times_;       // marks, or
   std::int32_t increments_ = 0;     // increments between marks
-  bool at_leisure_ = false;
+  std::int64_t leisure_ = 0;        // increments of which those that serve a mark are multiples; 0: all are
   std::int64_t next_index_ = 1;
 };
 

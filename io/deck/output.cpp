@@ -180,10 +180,12 @@ void finish_output(Builder& builder) {
   }
   for (std::size_t row = 0; row < model.steps.size(); ++row) {
     Step& step = model.steps[row];
-    if (step.field_outputs.empty() && !builder.without_field.contains(row))
-      step.field_outputs.push_back(preselected_field());
     default_times(step);
-    // A history that nobody asked for has no times: it is written at leisure (results_schedule.hpp).
+    // Explicit frames and histories that nobody asked for have no times: they are written at leisure (results_schedule.hpp).
+    if (step.field_outputs.empty() && !builder.without_field.contains(row)) {
+      step.field_outputs.push_back(preselected_field());
+      if (step.has_few_increments()) step.field_outputs.back().frequency = 1;
+    }
     if (step.history_outputs.empty() && !builder.without_history.contains(row)) {
       step.history_outputs.emplace_back();
       step.history_outputs.back().energies = energies;

@@ -191,6 +191,7 @@ void Writer::field_output(const FieldOutput& output, std::size_t step, std::size
     for (const double time : output.time_points) time_points_ += fmt::format("{}\n", time);
     times = ", TIME POINTS=" + name;
   }
+  if (times.empty()) return;  // what a deck that asks for no frames gets
   line("*OUTPUT, FIELD{}{}", times, output.single_precision ? "" : ", PRECISION=DOUBLE");
   const auto request = [&](const std::string& keyword, const std::vector<std::string>& variables) {
     if (variables.empty()) return;

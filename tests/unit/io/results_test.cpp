@@ -72,6 +72,23 @@ TEST(Schedule, AfterARestartTheNextMarkIsTheSame) {
   }
 }
 
+TEST(Schedule, WhatNobodyAskedForWaitsForAnIncrementThatCostsLittle) {
+  Step step;
+  step.procedure = ExplicitProcedure{.duration = 1.0};
+  Schedule frames = Schedule::of(FieldOutput{}, step), rows = Schedule::of(HistoryOutput{}, step);
+  EXPECT_EQ(frames.next(), 1.0) << "nobody is called for it";
+  for (Schedule* schedule : {&frames, &rows}) {
+    EXPECT_FALSE(schedule->due(0.5, 1999, false));
+    EXPECT_FALSE(schedule->due(0.004, 1000, false)) << "before the first mark";
+    EXPECT_TRUE(schedule->due(0.5, 2000, false));
+    EXPECT_TRUE(schedule->due(1.0, 2001, true));
+    schedule->pass(0.5);
+    EXPECT_FALSE(schedule->due(0.504, 3000, false)) << "before the next";
+  }
+  EXPECT_FALSE(frames.due(0.6, 2500, false));
+  EXPECT_TRUE(rows.due(0.6, 2500, false));
+}
+
 TEST(Schedule, EveryIncrements) {
   const Schedule schedule = Schedule::every_increments(3, 1.0);
   EXPECT_FALSE(schedule.due(0.1, 2, false));
