@@ -227,18 +227,24 @@ Pack FullSolid<Shape>::stiffness_bound(const Coefficients<Pack>& c, const FullSo
   const auto tangent = [&](int q) {
     return TangentBound<Pack>{load(&points.volumetric_modulus[pack_size * q]), load(&points.shear_modulus[pack_size * q])};
   };
+  std::array<InitialStress<Pack>, Shape::points> initial;
+  Pack mean_pressure = 0.0;
+  for (int q = 0; q < Shape::points; ++q) {
+    initial[q] = {k.modified[q], stress[q]};
+    mean_pressure += (inverse_volume * reference[Record::point(q) + 9]) * initial[q].pressure;
+  }
   if (material_.law->bounds_spatial_gradient()) {
-    SpatialSolidBound<Pack> bound;
+    SpatialSolidBound<Pack> bound{mean_pressure};
     for (int q = 0; q < Shape::points; ++q) {
       const Pack weight = reference[Record::point(q) + 9];
-      bound.add_point(k.modified[q], natural_gradient<Shape>(c, q), stress[q], tangent(q), k.scale[q], k.jacobian[q] * inverse,
+      bound.add_point(k.modified[q], natural_gradient<Shape>(c, q), initial[q], tangent(q), k.scale[q], k.jacobian[q] * inverse,
                       weight, inverse_volume * weight);
     }
     return bound.volumetric() * dilatation + bound.distortional(reference[Record::laplacian_bound], natural_laplacian_);
   }
-  FullSolidBound<Pack> bound;
+  FullSolidBound<Pack> bound{mean_pressure};
   for (int q = 0; q < Shape::points; ++q)
-    bound.add_point(k.modified[q], stress[q], tangent(q), k.scale[q], k.jacobian[q] * inverse,
+    bound.add_point(k.modified[q], initial[q], tangent(q), k.scale[q], k.jacobian[q] * inverse,
                     inverse_volume * reference[Record::point(q) + 9]);
   return bound.volumetric() * dilatation + bound.distortion * reference[Record::laplacian_bound];
 }
