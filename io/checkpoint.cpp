@@ -14,6 +14,7 @@
 #include "hdf5_file.hpp"
 #include "hdf5_rows.hpp"
 #include "model/diagnostics.hpp"
+#include "model_digest.hpp"
 
 namespace balocco {
 
@@ -216,6 +217,7 @@ void write_header(const std::string& path, const Model& model, const State& stat
   if (!multipliers.empty()) file.write("/multipliers", {multipliers.size(), 1}, multipliers);
   file.set_attribute("/", "format_version", format_version);
   file.set_attribute("/", "deck_sha256", model.deck_sha256);
+  for (const auto& [part, digest] : model_digests(model)) file.set_attribute("/", "digest of " + part, digest);
   file.set_attribute("/", "total_time", state.total_time);
   file.set_attribute("/", "step", static_cast<std::int64_t>(state.step + (step_finished ? 1 : 0)));
   file.set_attribute("/", "step_time", step_finished ? 0.0 : state.step_time);
@@ -240,10 +242,29 @@ std::unique_ptr<Hdf5File> open_checkpoint(const std::string& path) {
                                                    : "not a checkpoint of Balocco, or one that was not finished"));
 }
 
-void read_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
-  if (file.integer_attribute("/", "format_version") != format_version) {
-    throw InputError(fmt::format("{}: error: checkpoint of another version of Balocco; restart with that version", path));
+void refuse_other_versions(const Hdf5File& file, const std::string& path) {
+  if (file.integer_attribute("/", "format_version") == format_version) return;
+  throw InputError(fmt::format("{}: error: checkpoint of another version of Balocco; restart with that version", path));
+}
+
+/// Everything stands as at the start of a job, but for what the steps before have made of it.
+void read_foreign_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
+  refuse_other_versions(file, path);
+  for (const auto& [part, digest] : model_digests(model)) {
+    const std::string attribute = "digest of " + part;
+    if (file.has_attribute("/", attribute) && file.text_attribute("/", attribute) == digest) continue;
+    throw InputError(fmt::format("{}: error: checkpoint of another model than {}: its {} differ; import from a job with the same model, "
+                                 "whose steps alone are others",
+                                 path, model.files.empty() ? model.name : model.files.front(), part));
   }
+  state.dynamic = file.integer_attribute("/", "dynamic") != 0;
+  state.linear = file.integer_attribute("/", "linear") != 0;
+  if (state.linear)
+    throw InputError(fmt::format("{}: error: its steps are geometrically linear, so that it is no state to go on from; give them NLGEOM", path));
+}
+
+void read_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
+  refuse_other_versions(file, path);
   if (file.text_attribute("/", "deck_sha256") != model.deck_sha256) {
     throw InputError(fmt::format("{}: error: checkpoint of another deck than {}; restart with the deck as it was, or run "
                                  "without --restart",
@@ -316,6 +337,22 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
   }
 }
 
+/// `header`: which of the functions above reads what belongs to no table.
+void read_all(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain, ElementGroups groups,
+              State& state, void (*header)(const Hdf5File&, const std::string&, const Model&, State&)) {
+  communicator.together([&] {
+    if (!std::filesystem::exists(path)) {
+      throw InputError(fmt::format("{}: error: no checkpoint to go on from; run without --restart or --import", path));
+    }
+    const auto file = open_checkpoint(path);
+    header(*file, path, model, state);
+    read_bodies(*file, state);
+    if (file->exists("/multipliers")) state.multiplier = file->read("/multipliers");
+  });
+  ParallelFile file(path, communicator, ParallelFile::Mode::read);
+  read_tables(file, model, communicator, domain, groups, state);
+}
+
 }  // namespace
 
 void write_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
@@ -340,19 +377,14 @@ void write_checkpoint(const std::string& path, const Model& model, const Communi
   });
 }
 
+void import_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
+                       ElementGroups groups, State& state) {
+  read_all(path, model, communicator, domain, groups, state, read_foreign_header);
+}
+
 void read_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
                      ElementGroups groups, State& state) {
-  communicator.together([&] {
-    if (!std::filesystem::exists(path)) {
-      throw InputError(fmt::format("{}: error: no checkpoint to restart from; run without --restart", path));
-    }
-    const auto file = open_checkpoint(path);
-    read_header(*file, path, model, state);
-    read_bodies(*file, state);
-    if (file->exists("/multipliers")) state.multiplier = file->read("/multipliers");
-  });
-  ParallelFile file(path, communicator, ParallelFile::Mode::read);
-  read_tables(file, model, communicator, domain, groups, state);
+  read_all(path, model, communicator, domain, groups, state, read_header);
 }
 
 }  // namespace balocco

@@ -24,7 +24,6 @@ struct Partition {
   std::vector<std::int32_t> part;  // of each element
   std::vector<bool> reference;     // per model node: reference node of a rigid body
   std::vector<bool> turns;         // per model node
-
   std::vector<std::int32_t> owner;  // of each model node: lowest rank whose elements touch it, rank 0 where none does
   /// Nodes of each linkage, all of which are on all of its ranks.
   struct Shared {

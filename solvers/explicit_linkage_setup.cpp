@@ -208,4 +208,13 @@ void ExplicitLinkages::report_singular(const Analysis& analysis, const System& s
       analysis.model.where({definition.file, definition.line}), definition.keyword));
 }
 
+void ExplicitLinkages::report_apart(const Analysis& analysis, const System& system, double gap) const {
+  const auto& definition = analysis.model.constraints[system.members.front().constraint];
+  throw AnalysisError(fmt::format(
+      "step {}, increment {}, time {:.6g}: the linkage of {} {} comes apart by {:.3g}: it moves too far in an increment; reduce the increment, "
+      "or look for loads that throw it",
+      step_.name, analysis.current.increment, analysis.current.total_time, definition.keyword,
+      analysis.model.where({definition.file, definition.line}), gap));
+}
+
 }  // namespace balocco

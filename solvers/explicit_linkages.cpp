@@ -27,6 +27,8 @@ void add(Vector6& six, double factor, const Point& direction) {
 /// Systems of more unknowns are solved by a sparse factorisation.
 constexpr int largest_dense = 60;
 constexpr int most_iterations = 8;
+/// Relative to the size of the linkage: what iterations must not leave.
+constexpr double largest_gap = 1e-3;
 
 }  // namespace
 
@@ -67,7 +69,7 @@ void ExplicitLinkages::find_responses(const Analysis& analysis, System& system) 
 }
 
 /// Of [ average G W G^T  G_0 ; G_0^T 0 ]: how gaps change with multipliers, and with the velocities of massless directions.
-void ExplicitLinkages::factorize(const Analysis& analysis, System& system, double average) const {
+bool ExplicitLinkages::factorizes(System& system, double average) const {
   const auto unknowns = static_cast<std::size_t>(system.unknowns);
   const bool small = system.unknowns <= largest_dense;
   std::vector<Eigen::Triplet<double>> entries;
@@ -119,8 +121,8 @@ void ExplicitLinkages::factorize(const Analysis& analysis, System& system, doubl
     system.sparse_factors->factorize(matrix);
     sound = system.sparse_factors->info() == Eigen::Success;
   }
-  if (!sound) report_singular(analysis, system);
   system.factorized_for = average;
+  return sound;
 }
 
 /// solution -= matrix^-1 residual.
@@ -247,16 +249,17 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
     }
     find_base(analysis, system, instant, forces);
     std::ranges::fill(system.solution, 0.0);
-    double before = std::numeric_limits<double>::max();
+    double gap = 0.0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       find_constraint_forces(system);
       find_velocities(analysis, system, instant);
-      const double largest = find_residual(analysis, system, instant.next);
-      const bool resolved = largest <= resolution * system.size || (iteration > 1 && largest > 0.5 * before);
+      const double before = gap;
+      gap = find_residual(analysis, system, instant.next);
+      const bool resolved = gap <= resolution * system.size || (iteration > 1 && !(gap <= 0.5 * before));
       if (iteration > 0 && (instant.next == 0.0 || resolved)) break;
-      before = largest;
       correct(system);
     }
+    if (!(gap <= largest_gap * system.size)) report_apart(analysis, system, gap);
     for (const auto& member : system.members)
       for (std::size_t i = 0; i < member.rows.size(); ++i)
         analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]] = system.solution[member.first_row + i];
@@ -375,9 +378,9 @@ double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, b
       if (mover.first_unknown < 0) return mover.inverse_inertia;
       find_gradient(analysis, system);
       find_responses(analysis, system);
-      factorize(analysis, system, 1.0);
+      const bool sound = factorizes(system, 1.0);  // else the start of the step tells
       double trace = 0.0;
-      for (std::size_t k = 0; k < mover.directions.size(); ++k) {
+      for (std::size_t k = 0; sound && k < mover.directions.size(); ++k) {
         std::ranges::fill(system.solution, 0.0);
         std::ranges::fill(system.residual, 0.0);
         system.residual[mover.first_unknown + k] = 1.0;

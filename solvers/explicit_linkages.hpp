@@ -40,7 +40,8 @@ class ExplicitLinkages {
   /// Rows of State::multiplier, of this rank's linkages, that other constraints and conditions imply.
   const std::vector<std::int32_t>& dependent_rows() const { return dependent_; }
 
-  /// Velocities at the start of a step: the nearest ones, by mass, that the constraints allow.
+  /// Velocities at the start of a step: the nearest ones, by mass, that the constraints allow. As the next two: @throws AnalysisError, on the
+  /// ranks of a linkage alone, where its motion is not determined.
   void make_velocities_consistent(Analysis& analysis);
   /// Forces that hold the constraints where nothing moves: added to `forces` and to the bodies.
   void add_resting_forces(const Analysis& analysis, const NodalForces& forces);
@@ -122,8 +123,13 @@ class ExplicitLinkages {
 
   void find_gradient(const Analysis& analysis, System& system) const;
   void find_responses(const Analysis& analysis, System& system) const;
-  void factorize(const Analysis& analysis, System& system, double average) const;
+  /// @return false where the motion is not determined.
+  bool factorizes(System& system, double average) const;
+  void factorize(const Analysis& analysis, System& system, double average) const {
+    if (!factorizes(system, average)) report_singular(analysis, system);
+  }
   [[noreturn]] void report_singular(const Analysis& analysis, const System& system) const;
+  [[noreturn]] void report_apart(const Analysis& analysis, const System& system, double gap) const;
   void correct(System& system) const;
   void find_constraint_forces(System& system) const;
   void find_base(const Analysis& analysis, System& system, const Instant& instant, const NodalForces& forces) const;

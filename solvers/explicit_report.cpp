@@ -96,7 +96,7 @@ void ExplicitStep::check_energy_balance() {
 void ExplicitStep::log_balance() {
   const auto& domain = analysis_.domain;
   auto force = force_, moment = moment_;
-  linkages_.add_resting_forces(analysis_, {force.data(), moment.data()});
+  analysis_.communicator.together([&] { linkages_.add_resting_forces(analysis_, {force.data(), moment.data()}); });
   const auto balance = bodies_.balance();
   std::array<double, 2> sums{};  // squares: unbalanced; loads and reactions. Moments count with 1 / lever.
   const auto add = [&](std::vector<double> vector, const std::vector<double>& external, const NodalConstraints& constraints,

@@ -149,8 +149,8 @@ void ExplicitStep::prepare_start() {
   state.time_increment = 0.0;
   last_increment_ = next_increment_ = 0.0;
   const auto before = analysis_.model.general_step_before(state.step);
-  const bool follows_static =
-      before < 0 || !std::holds_alternative<ExplicitProcedure>(analysis_.model.steps[before].procedure);
+  const bool follows_static =  // an import may bring motion along
+      before < 0 ? !state.dynamic : !std::holds_alternative<ExplicitProcedure>(analysis_.model.steps[before].procedure);
   if (follows_static) {
     std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
     std::fill(state.angular_velocity.begin(), state.angular_velocity.end(), 0.0);
@@ -167,7 +167,7 @@ void ExplicitStep::prepare_start() {
     rotation_constraints_.set_initial_velocities(analysis_, step_, instant());
     bodies_.set_initial_velocities(analysis_, instant());
   }
-  linkages_.make_velocities_consistent(analysis_);
+  analysis_.communicator.together([&] { linkages_.make_velocities_consistent(analysis_); });
   contact_.choose_springs(analysis_);
   if (!state.dynamic) contact_.report_overclosure(analysis_, observer_);
   if (!state.dynamic) check_rolling_radius(analysis_, step_, observer_);
@@ -278,7 +278,11 @@ void ExplicitStep::satisfy_constraints() {
   if (linkages_.empty()) return;
   timers.measure(Phase::bodies, [&] {
     rotation_constraints_.find_velocities(analysis_, step_, instant());
-    linkages_.find_motion(analysis_, instant(), forces());
+    try {
+      linkages_.find_motion(analysis_, instant(), forces());
+    } catch (const AnalysisError& error) {  // of this rank's linkages: told to all in the next agreement
+      failure_ = error.what();
+    }
   });
 }
 

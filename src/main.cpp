@@ -31,6 +31,7 @@ struct Command {
   double relative = 0.0;
   std::vector<std::string> ignored_keywords;
   bool restart = false;
+  std::string import_from;
   int ranks = 1;
 };
 
@@ -71,6 +72,9 @@ ExitStatus run(const Command& command, const Communicator& communicator) {
   const JobPaths paths{command.output, model.name};
   if (command.restart) {
     read_checkpoint(paths.checkpoint(), model, communicator, analysis.domain, analysis.element_groups, analysis.current);
+    analysis.take_up_checkpoint();
+  } else if (!command.import_from.empty()) {
+    import_checkpoint(command.import_from, model, communicator, analysis.domain, analysis.element_groups, analysis.current);
     analysis.take_up_checkpoint();
   }
   JobObserver observer(model, communicator, analysis.domain, paths, command.restart);
@@ -185,7 +189,9 @@ int dispatch(int argc, char** argv) {
   auto* run_command = app.add_subcommand("run", "Run a deck: mpirun -n N balocco run JOB.inp [-- PETSc options]");
   run_command->add_option("deck", command.deck, "Abaqus-style deck")->required();
   run_command->add_option("--output", command.output, "Folder of the results (made if absent)");
-  run_command->add_flag("--restart", command.restart, "Go on from JOB.ckpt.h5 in the output folder, on any number of ranks");
+  auto* restart = run_command->add_flag("--restart", command.restart, "Go on from JOB.ckpt.h5 in the output folder, on any number of ranks");
+  run_command->add_option("--import", command.import_from, "Start from where another job with the same model ended: its JOB.ckpt.h5")
+      ->excludes(restart);
   run_command->add_option("--until", command.last_step, "Stop after the step of this name");
   run_command->add_option("--ignore", command.ignored_keywords, "Skip this keyword with a warning (repeatable)");
 

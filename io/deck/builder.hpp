@@ -63,6 +63,7 @@ class Builder {
   std::map<std::string, SectionControls> section_controls;
   std::map<std::string, Connector> connector_behaviors;  // of which only the components and matrices are said
   Connector* connector_behavior = nullptr;               // the last
+  std::map<std::string, double> fastener_radius;
   std::map<std::string, std::vector<double>> time_points;
   std::unordered_map<std::int64_t, ElementRef> element_of_id;
   std::vector<std::array<std::int32_t, 4>> sorted_solid_faces;  // filled when a surface first asks for free faces

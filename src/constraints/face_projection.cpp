@@ -95,6 +95,12 @@ FaceProjection::FaceProjection(const Model& model, const Surface& surface) : mod
   mean_edge_ = edges > 0 ? sum / static_cast<double>(edges) : 0.0;
 }
 
+std::vector<std::vector<std::int32_t>> FaceProjection::faces() const {
+  std::vector<std::vector<std::int32_t>> nodes;
+  for (const auto& face : faces_) nodes.push_back(face.nodes);
+  return nodes;
+}
+
 /// Least squares by Gauss-Newton from the middle, held on the face.
 std::optional<FacePoint> FaceProjection::project(const Face& face, const Point& point) const {
   constexpr int most_iterations = 30;

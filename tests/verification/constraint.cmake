@@ -1,7 +1,11 @@
 # Constraints, joints and couplings against closed forms and fine integrations, in both procedures, on one rank and on more.
-foreach(case masses_on_links falling_chain four_bar universal_joint coupled_tip turned_coupling equations tied_blocks rest_with_constraints same_bits)
+foreach(case masses_on_links falling_chain four_bar universal_joint coupled_tip turned_coupling equations tied_blocks welded_sheets rest_with_constraints same_bits)
   add_test(NAME constraint_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/constraint_cases.py ${case} $<TARGET_FILE:balocco>
                    ${CMAKE_CURRENT_BINARY_DIR}/constraint_${case})
   set_tests_properties(constraint_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
 endforeach()
+add_test(NAME import_driving_from_an_equilibrium
+         COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/import_cases.py driving_from_an_equilibrium $<TARGET_FILE:balocco>
+                 ${CMAKE_CURRENT_BINARY_DIR}/import_driving_from_an_equilibrium)
+set_tests_properties(import_driving_from_an_equilibrium PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)

@@ -339,6 +339,43 @@ def tied_blocks(run):
     check("they come nearer on finer meshes", float(fine < 0.5 * coarse), 1.0, 0.0)
 
 
+def welded_sheets(run):
+    """Two overlapping strips of shells joined by spot welds wherever these are: the strips carry the load over as one, and the weld's
+    place on the mesh does not matter much."""
+
+    def lap(shift, ranks):
+        nodes, shells = [], []
+        for sheet in range(2):
+            for i in range(13):
+                for j in range(5):
+                    nodes.append(f"{1000 * sheet + 10 * i + j + 1}, {0.1 * i + (0.8 + shift) * sheet!r}, {0.1 * j!r}, {0.004 * sheet!r}")
+            for i in range(12):
+                for j in range(4):
+                    corners = [1000 * sheet + 10 * a + b + 1 for a, b in ((i, j), (i + 1, j), (i + 1, j + 1), (i, j + 1))]
+                    shells.append((sheet, f"{1000 * sheet + 10 * i + j + 1}, " + ", ".join(map(str, corners))))
+        welds = [f"{5001 + 3 * a + b}, {0.9 + 0.1 * a!r}, {0.1 + 0.1 * b!r}, 0.002" for a in range(3) for b in range(3)]
+        left = ", ".join(str(j + 1) for j in range(5))
+        right = ", ".join(str(1120 + j + 1) for j in range(5))
+        return run("\n".join(["*NODE", *nodes, *welds, "*ELEMENT, TYPE=S4R, ELSET=FIRST", *[e for s, e in shells if s == 0],
+                              "*ELEMENT, TYPE=S4R, ELSET=SECOND", *[e for s, e in shells if s == 1], "*ELSET, ELSET=BOTH\nFIRST, SECOND",
+                              "*NSET, NSET=LEFT\n" + left, "*NSET, NSET=RIGHT\n" + right,
+                              "*NSET, NSET=WELDS, GENERATE\n5001, 5009, 1", "*SURFACE, NAME=A\nFIRST, SPOS", "*SURFACE, NAME=B\nSECOND, SPOS",
+                              "*FASTENER PROPERTY, NAME=SPOT\n0.003", "*FASTENER, INTERACTION NAME=W, PROPERTY=SPOT, REFERENCE NODE SET=WELDS\n\nA, B",
+                              "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e9, 0.3\n*DENSITY\n7800.", "*SHELL SECTION, ELSET=BOTH, MATERIAL=STEEL\n0.004",
+                              "*BOUNDARY\nLEFT, 1, 6\nRIGHT, 2, 6", "*STEP\n*STATIC\n*BOUNDARY\nRIGHT, 1, 1, 1e-4",
+                              "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=LEFT\nRF1\n*END STEP\n"]), ranks)
+
+    force = {}
+    for shift, ranks in ((0.0, 1), (0.037, 2)):
+        job = lap(shift, ranks)
+        force[shift] = -sum(job.history(f"node_{j + 1}", "RF1")[1][-1] for j in range(5))
+        # As one sheet with a doubled overlap, the ends held across: E / (1 - nu^2) at the most, E at the least.
+        lengths = 1.2 - 0.4 + 1.2 - 0.4 + 2 * shift, 0.4 - shift
+        stiffest = 210e9 / 0.91 * 0.4 * 0.004 / (lengths[0] + lengths[1] / 2)
+        check(f"stiffness against that of one sheet, shifted by {shift}", force[shift] / 1e-4 / stiffest, 0.9, 0.1)
+    check("welds anywhere on the mesh", force[0.037] / force[0.0], (1.6 + 0.2) / (1.6 + 0.074 + 0.1815), 0.03)
+
+
 def rest_with_constraints(run):
     """A loaded equilibrium with couplings, an equation and a bushing goes on explicitly at rest."""
     for ranks, kind in ((1, KINEMATIC), (2, DISTRIBUTING)):
@@ -397,4 +434,4 @@ def same_bits(run):
 
 if __name__ == "__main__":
     run_case({case.__name__: case for case in (masses_on_links, falling_chain, four_bar, universal_joint, coupled_tip, turned_coupling, equations,
-                                               tied_blocks, rest_with_constraints, same_bits)})
+                                               tied_blocks, welded_sheets, rest_with_constraints, same_bits)})

@@ -22,11 +22,11 @@ class Job:
         self.name, self.balocco, self.ranks, self.folder = name, balocco, ranks, pathlib.Path(folder)
         self.folder.mkdir(parents=True, exist_ok=True)
 
-    def run(self, text=None, expected_status=0):
+    def run(self, text=None, expected_status=0, arguments=()):
         deck = self.folder / f"{self.name}.inp"
         deck.write_text(text if text is not None else (DECKS / f"{self.name}.inp").read_text())
         environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-        command = ["mpirun", "--oversubscribe", "-n", self.ranks, self.balocco, "run", str(deck), "--output", str(self.folder)]
+        command = ["mpirun", "--oversubscribe", "-n", self.ranks, self.balocco, "run", str(deck), "--output", str(self.folder), *arguments]
         done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=150)
         if done.returncode != expected_status:
             sys.exit(f"exit status {done.returncode}, expected {expected_status}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")

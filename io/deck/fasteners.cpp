@@ -1,0 +1,113 @@
+// *FASTENER with *FASTENER PROPERTY: spot welds wherever their reference nodes are, on meshes that need not know of them. Every layer
+// moves the reference node with the weighted mean motion of its nodes around the weld (constraints/distributing_coupling.hpp), so that
+// the layers move as one there.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "constraints/face_projection.hpp"
+#include "deck/builder.hpp"
+#include "deck/geometry.hpp"
+#include "deck/register.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+void read_property(Builder& builder, const Block& block) {
+  if (block.lines.empty()) return builder.error(block, block.location, "the radius is missing; add a data line with it");
+  Row row(builder, block, block.lines[0]);
+  const double radius = row.real(0, "radius");
+  row.at_most(1);
+  if (row.ok() && !(radius > 0.0)) row.error(fmt::format("radius {} must be positive; correct it", radius));
+  if (row.ok()) builder.fastener_radius[block.value("NAME")] = radius;
+}
+
+/// A surface that welds join, and its nodes.
+struct Layer {
+  const Surface* surface = nullptr;
+  FaceProjection faces;
+  std::vector<std::int32_t> nodes;
+};
+
+std::vector<Layer> read_layers(Builder& builder, const Block& block) {
+  std::vector<Layer> layers;
+  for (std::size_t i = 1; i < block.lines.size(); ++i) {
+    Row row(builder, block, block.lines[i]);
+    for (int field = 0; field < row.size(); ++field) {
+      if (!row.has(field)) continue;
+      const auto surface = builder.require(builder.surfaces, row.name(field), block, row.location());
+      if (!surface) return {};
+      const auto& found = builder.model.surfaces[*surface];
+      Layer layer{&found, FaceProjection(builder.model, found), {}};
+      for (const auto& face : layer.faces.faces()) layer.nodes.insert(layer.nodes.end(), face.begin(), face.end());
+      std::ranges::sort(layer.nodes);
+      layer.nodes.erase(std::unique(layer.nodes.begin(), layer.nodes.end()), layer.nodes.end());
+      layers.push_back(std::move(layer));
+    }
+  }
+  if (layers.size() < 2)
+    builder.error(block, block.location, "a weld joins at least two surfaces; name them on the lines behind the first one, which says the direction or is empty");
+  return layers.size() < 2 ? std::vector<Layer>{} : std::move(layers);
+}
+
+/// Nodes of a layer within the radius of influence about a place, weighted alike; where there are too few to tell a rotation, those of
+/// the face there, weighted so that their mean is the place itself.
+void add_cloud(const Model& model, const Layer& layer, const FacePoint& place, double influence, DistributingCoupling& coupling) {
+  for (const auto node : layer.nodes)
+    if (norm(subtract(model.nodes.coordinates[node], place.position)) <= influence) coupling.nodes.push_back(node);
+  coupling.weights.assign(coupling.nodes.size(), 1.0);
+  if (coupling.nodes.size() >= 3) return;
+  coupling.nodes.clear();
+  coupling.weights.clear();
+  constexpr double least = 1e-3;  // a weld at a node still has a face around it, whose rotation is its own
+  for (std::size_t i = 0; i < place.nodes.size(); ++i) {
+    coupling.nodes.push_back(place.nodes[i]);
+    coupling.weights.push_back(std::max(place.weights[i], least));
+  }
+}
+
+void add_weld(Builder& builder, const Block& block, std::int32_t reference, const std::vector<Layer>& layers, double radius) {
+  const double influence = block.real("RADIUS OF INFLUENCE", radius), reach = block.real("SEARCH RADIUS", HUGE_VAL);
+  const auto& at = builder.model.nodes.coordinates[reference];
+  for (const auto& layer : layers) {
+    const auto place = layer.faces.nearest(at, reach);
+    if (!place)
+      return builder.error(block, block.location,
+                           fmt::format("the weld at node {} finds no face of {} within its SEARCH RADIUS of {:.4g}; give a greater one, or move the node",
+                                       builder.model.node_name(reference), layer.surface->name, reach));
+    DistributingCoupling coupling{.reference = reference, .nodes = {}, .weights = {}};
+    add_cloud(builder.model, layer, *place, influence, coupling);
+    builder.model.constraints.push_back({std::move(coupling), "*FASTENER", block.location.file, block.location.line});
+  }
+}
+
+void read_fastener(Builder& builder, const Block& block) {
+  const auto property = builder.fastener_radius.find(block.value("PROPERTY"));
+  if (property == builder.fastener_radius.end()) {
+    if (!builder.is_poisoned(block.value("PROPERTY")))
+      builder.error(block, block.location, fmt::format("fastener property {} is not defined; define *FASTENER PROPERTY, NAME={}", block.value("PROPERTY"),
+                                                       block.value("PROPERTY")));
+    return;
+  }
+  std::vector<std::int32_t> references;
+  if (!builder.nodes_of(block.value("REFERENCE NODE SET"), block, block.location, references)) return;
+  if (!block.lines.empty() && Row(builder, block, block.lines[0]).has(0))
+    return builder.error(block, block.lines[0].location, "welds are projected along the normals of the faces; leave the line of the direction empty");
+  const auto layers = read_layers(builder, block);
+  if (layers.empty()) return;
+  for (const auto reference : references) add_weld(builder, block, reference, layers, property->second);
+}
+
+const RegisterKeyword property{{"FASTENER PROPERTY", Phase::definitions, Place::model, {required(name("NAME"))}, read_property}};
+const RegisterKeyword fastener{{"FASTENER",
+                                Phase::constraints,
+                                Place::model,
+                                {required(name("PROPERTY")), required(name("REFERENCE NODE SET")), name("INTERACTION NAME"),
+                                 real("RADIUS OF INFLUENCE"), real("SEARCH RADIUS"), foreign("NUMBER OF LAYERS")},
+                                read_fastener}};
+
+}  // namespace
+
+}  // namespace balocco::deck
