@@ -20,6 +20,21 @@ Matrix3<T> constant(const Matrix3<double>& matrix) {
   return result;
 }
 
+template <class T>
+Vector3<double> values(const Vector3<T>& vector) {
+  return {value_of(vector[0]), value_of(vector[1]), value_of(vector[2])};
+}
+
+/// Friction of the same force whose derivative is that of its spring, wherever its anchor is.
+template <class T>
+void stick(const Vector3<T>& place, const Vector3<double>& normal, ContactForce<T>& contact) {
+  auto motion = place;
+  for (int i = 0; i < 3; ++i) motion[i] = motion[i] - value_of(place[i]);
+  const T across = motion[0] * normal[0] + motion[1] * normal[1] + motion[2] * normal[2];
+  for (int i = 0; i < 3; ++i)
+    contact.friction[i] = value_of(contact.friction[i]) - contact.tangential_stiffness * (motion[i] - across * normal[i]);
+}
+
 InputError refused(const Model& model, const ContactPair& pair, const std::string& what) {
   return InputError(fmt::format("{}: error: *CONTACT PAIR: {}", model.where(pair.location), what));
 }
@@ -102,7 +117,7 @@ void RigidContact::add_forces(const double* position, const RigidBodyState& mast
   for (std::int32_t i = 0; i < size(); ++i) {
     if (points[i].stiff_spring > 0.0) continue;
     const double* x = position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
-    const auto contact = contact_force(surface_, parameters(i), frame.inverse * frame.arm(x), points[i]);
+    const auto contact = contact_force(surface_, parameters(i, points[i]), frame.inverse * frame.arm(x), points[i]);
     if (!contact.closed) continue;
     const auto global = frame.rotation * (contact.normal + contact.friction);
     double* sum = force + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
@@ -152,7 +167,7 @@ void RigidContact::add_master_resultant(const double* position, const RigidBodyS
 }
 
 ContactTangent RigidContact::linearize(std::int32_t point, const double* position, const RigidBodyState& master,
-                                       const ContactPoint& old, ContactPoint& updated) const {
+                                       const ContactPoint& old, ContactPoint& updated, bool sticks) const {
   using Scalar = Dual<9>;
   const MasterFrame frame(master);
   const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[point]));
@@ -165,7 +180,8 @@ ContactTangent RigidContact::linearize(std::int32_t point, const double* positio
   // exp(spin) to first order about zero: the body frame sees the arm turned back, and the force turns along.
   const auto place = constant<Scalar>(frame.inverse) * (moved - cross(spin, moved));
   updated = old;
-  const auto contact = contact_force(surface_, parameters(point), place, updated);
+  auto contact = contact_force(surface_, parameters(point, old), place, updated);
+  if (sticks && contact.closed) stick(place, surface_.nearest(values(place)).normal, contact);
   ContactTangent tangent{.node = nodes_[point], .closed = contact.closed};
   if (!contact.closed) return tangent;
   const auto global = constant<Scalar>(frame.rotation) * (contact.normal + contact.friction);
@@ -184,7 +200,7 @@ double RigidContact::augment(const double* position, const RigidBodyState& maste
   for (std::int32_t i = 0; i < size(); ++i) {
     const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
     const double gap = surface_.nearest(frame.inverse * arm).distance;
-    points[i].multiplier = std::max(0.0, points[i].multiplier - stiffness_[i] * gap);
+    points[i].multiplier = std::max(0.0, points[i].multiplier - parameters(i, points[i]).stiffness * gap);
     if (points[i].multiplier > 0.0) greatest = std::max(greatest, std::abs(gap));
   }
   return greatest;
@@ -206,7 +222,7 @@ RigidContact::Output RigidContact::output(std::int32_t point, const double* posi
   output.normal_force = (frame.rotation * contact.normal).component;
   output.friction_force = (frame.rotation * contact.friction).component;
   // A multiplier holds without a stretch: nothing is stored where the gap is zero.
-  const double spring = state.stiff_spring > 0.0 ? state.stiff_spring : stiffness_[point];
+  const double spring = parameters(point, state).stiffness;
   const double stretched = std::max(0.0, state.multiplier - spring * output.gap);
   const double held = std::max(0.0, state.multiplier);
   output.spring_energy = 0.5 * (stretched * stretched - held * held) / spring;

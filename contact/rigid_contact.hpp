@@ -2,11 +2,13 @@
 // elastic stick, one force law for the implicit and the explicit solver, so that contact forces import exactly.
 //
 // Normal force of a node: t = max(0, multiplier - stiffness * gap) (gap < 0: penetration). The multiplier is zero
-// unless the implicit solver augmented it. Friction: tangential spring from the anchor, cut at mu * t; it is as stiff
-// as the normal spring, or, where the deck gives an ELASTIC SLIP, has the stiffness mu * t / elastic slip, but never
-// more than the normal spring, on which the stable increment counts.
+// unless the implicit solver augmented it. Friction: tangential spring from the anchor, cut at mu * t, or, where the deck gives an
+// ELASTIC SLIP, of the stiffness mu * t / elastic slip where that is less. It is as stiff as the normal spring. Springs that an
+// explicit cycle must follow have the stiffness of the pair; those of the implicit solver and the stiff ones of explicit steps are 20
+// times as stiff.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -76,7 +78,9 @@ class RigidContact {
   void add_forces(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points,
                   double* force) const;
 
-  /// Gives points that `stiff` names the stiff spring, the others that of the pair; the force of a closed point stays.
+  /// Gives all points the springs of the implicit solver; the force of a closed point stays.
+  void choose_implicit_springs(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points) const;
+  /// Those of an explicit step: the stiff spring to points that `stiff` names, that of the pair to the others. As above.
   void choose_springs(const double* position, const RigidBodyState& master, const std::vector<bool>& stiff,
                       std::vector<ContactPoint>& points) const;
 
@@ -103,9 +107,9 @@ class RigidContact {
                             const std::vector<ContactPoint>& points, std::span<ExactSum, 6> force_and_moment) const;
 
   /// Implicit: force and derivative of one point whose history at the start of the increment is `old`; `updated`
-  /// receives the history.
-  ContactTangent linearize(std::int32_t point, const double* position, const RigidBodyState& master,
-                           const ContactPoint& old, ContactPoint& updated) const;
+  /// receives the history. `sticks`: the derivative is that of a point that sticks, sliding or not, about the same force.
+  ContactTangent linearize(std::int32_t point, const double* position, const RigidBodyState& master, const ContactPoint& old,
+                           ContactPoint& updated, bool sticks = false) const;
 
   /// Augmented Lagrange: adds the spring's part to the multipliers, and changes nothing else, so that `points` may be
   /// the history at the start of the increment that is being solved. @return greatest gap or penetration of a closed
@@ -132,14 +136,24 @@ class RigidContact {
   void add_spring_stiffness(const std::vector<bool>& stiff, std::span<double> sum) const;
 
  private:
-  PenaltyParameters parameters(std::int32_t point) const { return {stiffness_[point], friction_, elastic_slip_}; }
+  /// Of the spring that `state` has.
+  PenaltyParameters parameters(std::int32_t point, const ContactPoint& state) const {
+    const double chosen = std::max(state.stiff_spring, state.implicit_spring);  // one of them is zero
+    return {chosen > 0.0 ? chosen : stiffness_[point], friction_, elastic_slip_};
+  }
   /// Force of a point whose history `state` is up to date.
   ContactForce<double> acting_force(std::int32_t point, const Vector3<double>& place, const ContactPoint& state) const;
   struct StiffMotion;
-  void change_spring(std::int32_t point, const Vector3<double>& place, double spring, ContactPoint& state) const;
+  /// Stiffnesses as ContactPoint has them.
+  struct Springs {
+    double stiff = 0.0, implicit = 0.0;
+  };
+  void change_springs(const MasterFrame& frame, const double* position, std::int32_t point, const Springs& springs,
+                      ContactPoint& state) const;
+  void keep_force(std::int32_t point, const Vector3<double>& place, const Springs& springs, ContactPoint& state) const;
   void add_stiff_force(std::int32_t point, const StiffCycle& cycle, const RigidBodyState& master,
                        const SlaveFreedom& freedom, ContactPoint& state, double* force) const;
-  void advance_stiff_friction(const MasterFrame& frame, const StiffMotion& motion, const SlaveFreedom& freedom,
+  void advance_stiff_friction(std::int32_t point, const MasterFrame& frame, const StiffMotion& motion, const SlaveFreedom& freedom,
                               const SurfacePoint<double>& nearest, double old_pressure, ContactPoint& state) const;
 
   std::int32_t master_body_ = -1;

@@ -9,7 +9,7 @@ namespace balocco {
 
 namespace {
 
-/// Stiffness of a stiff spring over that of the pair: under a pressure p the penetration is then p h / (10 M).
+/// Stiffness of a stiff or implicit spring over that of the pair: under a pressure p the penetration is then p h / (10 M).
 constexpr double stiff_factor = 20.0;
 
 /// What is left of a vector in the directions in which a point is free.
@@ -58,32 +58,43 @@ struct RigidContact::StiffMotion {
   }
 };
 
+void RigidContact::choose_implicit_springs(const double* position, const RigidBodyState& master,
+                                           std::vector<ContactPoint>& points) const {
+  const MasterFrame frame(master);
+  for (std::int32_t i = 0; i < size(); ++i) change_springs(frame, position, i, {0.0, stiff_factor * stiffness_[i]}, points[i]);
+}
+
 void RigidContact::choose_springs(const double* position, const RigidBodyState& master, const std::vector<bool>& stiff,
                                   std::vector<ContactPoint>& points) const {
   const MasterFrame frame(master);
-  for (std::int32_t i = 0; i < size(); ++i) {
-    auto& point = points[i];
-    const double spring = stiff[i] ? stiff_factor * stiffness_[i] : 0.0;
-    if (spring == point.stiff_spring) continue;
-    const auto place = frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
-    if (point.closed > 0.0)
-      change_spring(i, place, spring, point);
-    else if (spring > 0.0 && !surface_.surely_outside(place))
-      point.multiplier = std::min(0.0, spring * surface_.nearest(place).distance);  // below the surface it begins down there
-    point.stiff_spring = spring;
-  }
+  for (std::int32_t i = 0; i < size(); ++i)
+    change_springs(frame, position, i, {stiff[i] ? stiff_factor * stiffness_[i] : 0.0, 0.0}, points[i]);
+}
+
+void RigidContact::change_springs(const MasterFrame& frame, const double* position, std::int32_t i, const Springs& springs,
+                                  ContactPoint& point) const {
+  if (springs.stiff == point.stiff_spring && springs.implicit == point.implicit_spring) return;
+  const auto place = frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
+  if (point.closed > 0.0)
+    keep_force(i, place, springs, point);
+  else if (springs.stiff > 0.0 && !surface_.surely_outside(place))
+    point.multiplier = std::min(0.0, springs.stiff * surface_.nearest(place).distance);  // below the surface it begins down there
+  point.stiff_spring = springs.stiff;
+  point.implicit_spring = springs.implicit;
 }
 
 /// The anchor is where the spring starts along the surface, and as high above it as statics left the point.
-void RigidContact::change_spring(std::int32_t i, const Vector3<double>& place, double spring, ContactPoint& point) const {
+void RigidContact::keep_force(std::int32_t i, const Vector3<double>& place, const Springs& springs, ContactPoint& point) const {
   const auto nearest = surface_.nearest(place);
   const auto acting = acting_force(i, place, point);
-  const double new_stiffness = spring > 0.0 ? spring : stiffness_[i];
+  point.stiff_spring = springs.stiff;
+  point.implicit_spring = springs.implicit;
+  const auto law = parameters(i, point);
   // Negative where a soft spring holds the node below the surface: the stiff one then begins down there.
-  point.multiplier = acting.pressure + new_stiffness * nearest.distance;
+  point.multiplier = acting.pressure + law.stiffness * nearest.distance;
   point.stiff_force = acting.pressure;
   point.stiff_friction = acting.friction.component;
-  const double stiffness = tangential_stiffness({new_stiffness, friction_, elastic_slip_}, friction_ * acting.pressure);
+  const double stiffness = tangential_stiffness(law, friction_ * acting.pressure);
   auto anchor = place - std::min(0.0, nearest.distance) * nearest.normal;
   if (stiffness > 0.0) anchor = anchor + (1.0 / stiffness) * acting.friction;
   point.anchor = anchor.component;
@@ -120,7 +131,7 @@ void RigidContact::add_stiff_force(std::int32_t point, const StiffCycle& cycle, 
   state.stiff_force = stiff_normal_force(state.multiplier, state.stiff_spring, before, after,
                                          half * motion.yielding * dot(free_normal, normal));
   motion.new_velocity = motion.new_velocity + (motion.yielding * state.stiff_force) * free_normal;
-  if (friction_ > 0.0) advance_stiff_friction(frame, motion, freedom, nearest, old_pressure, state);
+  if (friction_ > 0.0) advance_stiff_friction(point, frame, motion, freedom, nearest, old_pressure, state);
   if (!(state.stiff_force > 0.0)) {
     // What began below the surface goes on from the highest place to which it has risen.
     const double highest = state.multiplier < 0.0 ? std::max(state.multiplier, state.stiff_spring * nearest.distance) : 0.0;
@@ -138,10 +149,10 @@ void RigidContact::add_stiff_force(std::int32_t point, const StiffCycle& cycle, 
 
 /// What friction does over the increment before, half with its old force, half with the new one, and what leaves its spring, is
 /// dissipated: so the balance of energies closes exactly.
-void RigidContact::advance_stiff_friction(const MasterFrame& frame, const StiffMotion& motion, const SlaveFreedom& freedom,
+void RigidContact::advance_stiff_friction(std::int32_t point, const MasterFrame& frame, const StiffMotion& motion, const SlaveFreedom& freedom,
                                           const SurfacePoint<double>& nearest, double old_pressure,
                                           ContactPoint& state) const {
-  const PenaltyParameters parameters{state.stiff_spring, friction_, elastic_slip_};
+  const PenaltyParameters law = parameters(point, state);
   const double limit = friction_ * state.stiff_force, old_limit = friction_ * old_pressure;
   const Vector3<double> old_friction{state.stiff_friction};
   Vector3<double> friction{};
@@ -154,14 +165,14 @@ void RigidContact::advance_stiff_friction(const MasterFrame& frame, const StiffM
     const auto normal = frame.rotation * nearest.normal;
     auto yielding = tangential_yielding(freedom, normal, motion.next * motion.yielding);
     yielding.axis = frame.inverse * yielding.axis;
-    const auto found = stiff_friction(limit, tangential_stiffness(parameters, limit), stretch, yielding);
+    const auto found = stiff_friction(limit, tangential_stiffness(law, limit), stretch, yielding);
     friction = found.force;
     state.anchor = (Vector3<double>{state.anchor} + found.slip).component;
     state.slip += std::sqrt(dot(found.slip, found.slip));
   }
   state.frictional_dissipation -= 0.5 * dot(old_friction + friction, frame.inverse * (motion.previous * motion.old_velocity)) +
-                                  tangential_energy(parameters, limit, friction) -
-                                  tangential_energy(parameters, old_limit, old_friction);
+                                  tangential_energy(law, limit, friction) -
+                                  tangential_energy(law, old_limit, old_friction);
   state.stiff_friction = friction.component;
 }
 
@@ -169,15 +180,14 @@ void RigidContact::advance_stiff_friction(const MasterFrame& frame, const StiffM
 ContactForce<double> RigidContact::acting_force(std::int32_t point, const Vector3<double>& place,
                                                 const ContactPoint& state) const {
   ContactPoint scratch = state;
-  if (state.stiff_spring == 0.0) return contact_force(surface_, parameters(point), place, scratch);
+  if (state.stiff_spring == 0.0) return contact_force(surface_, parameters(point, state), place, scratch);
   ContactForce<double> contact;
   contact.closed = state.closed > 0.0;
   if (!contact.closed) return contact;
   contact.pressure = state.stiff_force;
   contact.normal = contact.pressure * surface_.nearest(place).normal;
   contact.friction = Vector3<double>{state.stiff_friction};
-  contact.tangential_stiffness =
-      tangential_stiffness({state.stiff_spring, friction_, elastic_slip_}, friction_ * contact.pressure);
+  contact.tangential_stiffness = tangential_stiffness(parameters(point, state), friction_ * contact.pressure);
   return contact;
 }
 

@@ -20,9 +20,10 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 3;
+constexpr std::int64_t format_version = 4;
 constexpr int body_values = 16;    // position 3, orientation 4, velocity 3, angular velocity 3, rotation 3
-constexpr int contact_values = 12;  // multiplier, closed, anchor 3, slip, frictional dissipation, stiff spring, its force, friction 3
+// Multiplier, closed, anchor 3, slip, frictional dissipation, stiff spring, its force, friction 3, implicit spring.
+constexpr int contact_values = 13;
 constexpr int work_values = 2;     // external, damping
 
 ParallelFile::Layout plain_layout(int columns) {
@@ -32,10 +33,10 @@ ParallelFile::Layout plain_layout(int columns) {
 std::array<double, contact_values> pack(const ContactPoint& point) {
   return {point.multiplier, point.closed, point.anchor[0], point.anchor[1], point.anchor[2], point.slip,
           point.frictional_dissipation, point.stiff_spring, point.stiff_force, point.stiff_friction[0], point.stiff_friction[1],
-          point.stiff_friction[2]};
+          point.stiff_friction[2], point.implicit_spring};
 }
 
-ContactPoint unpack_contact(const double* v) { return {v[0], v[1], {v[2], v[3], v[4]}, v[5], v[6], v[7], v[8], {v[9], v[10], v[11]}}; }
+ContactPoint unpack_contact(const double* v) { return {v[0], v[1], {v[2], v[3], v[4]}, v[5], v[6], v[7], v[8], {v[9], v[10], v[11]}, v[12]}; }
 
 std::array<double, body_values> pack(const RigidBodyState& body) {
   std::array<double, body_values> values;

@@ -281,8 +281,8 @@ void Analysis::start_step(const Step& step) {
     const auto& contact = contacts[pair];
     const auto& master = current.rigid_bodies[contact.master_body()];
     contact.start_step(current.position.data(), master, active, current.contact[pair]);
-    const std::vector<bool> none(static_cast<std::size_t>(contact.size()), false);
-    contact.choose_springs(current.position.data(), master, none, current.contact[pair]);
+    if (!std::holds_alternative<ExplicitProcedure>(step.procedure))
+      contact.choose_implicit_springs(current.position.data(), master, current.contact[pair]);
   }
 }
 

@@ -54,7 +54,6 @@ class FrequencyStep {
   Observer& observer_;
   ImplicitSystem system_;
   ImplicitStiffness mass_;
-  bool unsymmetric_ = false;  // friction or follower loads: modes are those of the symmetric part
 };
 
 /// Stiffness and mass where the state stands, under the loads that the last general step left; linear steps: those of the
@@ -66,13 +65,14 @@ void FrequencyStep::assemble() {
                                        .total_time = state.total_time,
                                        .initial_loads = true,
                                        .load_stiffness = !state.linear,
+                                       .contact_sticks = true,
                                        .motion = still});
   if (!sound) throw AnalysisError(fmt::format("step '{}' cannot start: {}", step_.name, system_.trouble()));
   assemble_mass(analysis_, system_.map(), mass_);
   symmetrize();
 }
 
-/// Friction and follower loads may leave a tangent without symmetry; modes are those of its symmetric part.
+/// Follower loads may leave a tangent without symmetry, and friction on a body that turns; modes are those of its symmetric part.
 void FrequencyStep::symmetrize() {
   Mat stiffness = system_.stiffness().matrix();
   PetscMatrix transposed;
@@ -83,9 +83,8 @@ void FrequencyStep::symmetrize() {
   petsc(MatNorm(transposed, NORM_FROBENIUS, &skew));
   petsc(MatAXPY(stiffness, 0.5, transposed, DIFFERENT_NONZERO_PATTERN));
   petsc(MatSetOption(stiffness, MAT_SYMMETRIC, PETSC_TRUE));
-  unsymmetric_ = skew > 1e-10 * whole;
-  if (unsymmetric_)
-    observer_.log(fmt::format("  warning: the stiffness is not symmetric (friction, or a load that follows): modes of its "
+  if (skew > 1e-10 * whole)
+    observer_.log(fmt::format("  warning: the stiffness is not symmetric (a load that follows, or friction on a body that turns): modes of its "
                               "symmetric part, {:.1e} of it left out",
                               skew / whole));
 }
@@ -217,10 +216,6 @@ void FrequencyStep::log_stability(const std::vector<Mode>& modes, int negative, 
   const auto listed = std::ranges::count_if(modes, [](const Mode& mode) { return mode.eigenvalue < 0.0; });
   if (negative == 0) {
     observer_.log(fmt::format("  the state is stable: no eigenvalue lies below {:.3g}", least));
-  } else if (unsymmetric_ && system_.has_contact() && listed == 0 && !modes.empty()) {
-    observer_.log(fmt::format("  of the symmetric part {} eigenvalues are negative, far below those of the modes; friction makes such "
-                              "where contact slides: they do not prove the state unstable",
-                              negative));
   } else {
     observer_.log(fmt::format(
         "  warning: the state is unstable: {} of its eigenvalues {} negative{}", negative, negative == 1 ? "is" : "are",

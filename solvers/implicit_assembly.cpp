@@ -47,7 +47,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   add_loads(request);
   add_pressure_stiffness(request);
   add_body_load_stiffness(request);
-  add_contact();
+  add_contact(request.contact_sticks);
   add_constraints();
   add_stabilization(request);
   exchange_.sum(residual_);
@@ -161,10 +161,10 @@ void ImplicitSystem::add_body_load_stiffness(const AssemblyRequest& request) {
   });
 }
 
-void ImplicitSystem::add_contact() {
+void ImplicitSystem::add_contact(bool sticks) {
   const auto closed_before = trial_contact_;
   for (const auto pair : step_.active_contact_pairs)
-    for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) add_contact_point(pair, point);
+    for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) add_contact_point(pair, point, sticks);
   std::int64_t closed = 0, changed = 0;
   for (const auto pair : step_.active_contact_pairs)
     for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) {
@@ -177,13 +177,13 @@ void ImplicitSystem::add_contact() {
   changed_points_ = analysis_.communicator.sum(changed);
 }
 
-void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point) {
+void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point, bool sticks) {
   const auto& contact = analysis_.contacts[pair];
   const auto body = contact.master_body();
   const auto& master = analysis_.current.rigid_bodies[body];
   const double* position = analysis_.current.position.data();
   const auto tangent =
-      contact.linearize(point, position, master, start_contact_[pair][point], trial_contact_[pair][point]);
+      contact.linearize(point, position, master, start_contact_[pair][point], trial_contact_[pair][point], sticks);
   const auto node = contact.nodes()[point];
   if (!analysis_.domain.owned[node]) return;
 

@@ -15,7 +15,7 @@ constexpr double final_tolerance = 1e-9;
 /// Iterations in which contact opened or closed that do not count against the limit.
 constexpr int discontinuous_iterations = 12;
 /// Penetration that augmentation leaves at the end of a step and before, relative to the edge of a slave node's area.
-constexpr double penetration_tolerance = 1e-3, passing_penetration_tolerance = 2e-2;
+constexpr double penetration_tolerance = 1e-3, passing_penetration_tolerance = 2e-3;
 constexpr int most_augmentations = 12;
 
 /// Corrections of a structure that is held back are at most this part of the model's size.

@@ -16,6 +16,7 @@ struct AssemblyRequest {
   double increment = 0.0;       // time that the increment takes; 0: none yet, no rate effects
   bool initial_loads = false;  // loads as they stood before the step began
   bool load_stiffness = true;  // follower pressure; a linear step leaves it out
+  bool contact_sticks = false;  // closed points with friction stick in the stiffness, sliding or not
   std::span<const double>
       motion;                   // of each slot: stiffness().product() will hold this rank's part of stiffness * motion
   double viscosity = 0.0;       // viscous force / (mass * displacement since the increment began)
@@ -107,8 +108,8 @@ class ImplicitSystem {
         if (share[node] != 0.0) visit(node, load, share[node]);
     }
   }
-  void add_contact();
-  void add_contact_point(std::int32_t pair, std::int32_t point);
+  void add_contact(bool sticks);
+  void add_contact_point(std::int32_t pair, std::int32_t point, bool sticks);
   void record_constraints();
   void add_constraints();
   void add_constraint(std::size_t local_constraint);

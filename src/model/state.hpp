@@ -36,6 +36,7 @@ struct ContactPoint {
   double stiff_spring = 0.0;  // explicit: normal stiffness that `multiplier` goes with; 0: that of the pair
   double stiff_force = 0.0;   // and its force at the last instant, which where the point is does not tell
   Point stiff_friction{};     // and that of friction, on the slave, in the frame of the master body
+  double implicit_spring = 0.0;  // implicit: stiffness that `multiplier` and `anchor` go with; 0: as for `stiff_spring`
 };
 
 /// Work done on a node, by kind: up to now, explicit: up to the middle of the increment to come. Copies of a shared node hold the same bits; sums are taken over owners.

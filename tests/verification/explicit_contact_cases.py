@@ -69,12 +69,11 @@ def pressed_block(job, friction=0.0):
     rubber = "*HYPERELASTIC, NEO HOOKE\n0.5, 0.1"
     deck = block(3, 4, 3, (5.0, 5.0, 5.0), law=rubber, friction=friction) + "*AMPLITUDE, NAME=RISE, DEFINITION=SMOOTH STEP\n0., 0., 8e-3, 1.\n"
     deck += "*STEP, NLGEOM\n"
-    job.run(deck + "*STATIC\n0.5, 1.\n*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\nTOP, 2, 2, -4.\n" + ENERGIES.format(0.5))
+    job.run(deck + "*STATIC\n0.05, 1., 1e-5, 0.05\n*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\nTOP, 2, 2, -4.\n" + ENERGIES.format(0.05))
     still = abs(job.history("node_9000", "RF2")[1][-1])
     work = abs(job.history("energy", "ALLWK")[1][-1])
-    if friction == 0.0:  # else ALLCW is what the tangential springs hold
-        check("energy of hard contact", job.history("energy", "ALLCW")[1][-1] / work, 0.0, 5e-3)  # the penetration that statics leave
-    check("balance of energies in statics", job.history("energy", "ETOTAL")[1][-1] / work, 0.0, 0.02)
+    check("energy of hard contact", job.history("energy", "ALLCW")[1][-1] / work, 0.0, 5e-3)  # what the springs of statics hold
+    check("balance of energies in statics", job.history("energy", "ETOTAL")[1][-1] / work, 0.0, 2e-3)
     explicit = "*STEP\n*DYNAMIC, EXPLICIT\n, 10e-3\n*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\n*BOUNDARY, AMPLITUDE=RISE\nTOP, 2, 2, -4.\n"
     job.run(deck.replace("*STEP, NLGEOM\n", "") + explicit + ENERGIES.format(1e-4))
     moving = np.abs(job.history("node_9000", "RF2")[1][-15:]).mean()

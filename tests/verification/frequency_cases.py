@@ -238,8 +238,35 @@ def shaft(runner):
         close(found, scale * math.sin((2 * k - 1) * math.pi / (4 * count)), 1e-9, "mode %d" % k)
 
 
+def sliding(runner):
+    """A block that slides on the ground sticks where it is in its modes: they are those of a block whose sole is held, but for the
+    springs of the contact, ten times as stiff as a layer of bricks, and nothing is left out of its stiffness as unsymmetric."""
+    found = {}
+    for sole, friction in (("held", 0.1), ("sticks", 0.1), ("is smooth", 0.0)):
+        deck = brick((2, 2, 2), (1.0, 1.0, 1.0))
+        deck.sets["TOP"] = deck.where(lambda x, y, z: y > 0.9)
+        deck.sets["SOLE"] = deck.where(lambda x, y, z: y < 0.1)
+        deck.add_node(9000, 0.0, 0.0, 0.0)
+        deck.add(ELASTIC.format(young=100.0, poisson=0.0).rstrip() + "\n*DENSITY\n2.")
+        deck.add("*ELSET, ELSET=LOW\n1, 2, 5, 6\n*SURFACE, NAME=SLAVE\nLOW, S3\n*SURFACE, NAME=GROUND, TYPE=SEGMENTS\nSTART, -9., 0.\n"
+                 "LINE, 9., 0.\n*RIGID BODY, REF NODE=9000, ANALYTICAL SURFACE=GROUND\n*SURFACE INTERACTION, NAME=I\n"
+                 "*FRICTION\n%g\n*CONTACT PAIR, INTERACTION=I\nSLAVE, GROUND\n*BOUNDARY\n9000, 1, 6" % friction)
+        deck.add("*STEP, NLGEOM\n*STATIC\n0.25, 1.\n*BOUNDARY\nTOP, 3, 3\nTOP, 1, 1, 0.2\nTOP, 2, 2, -0.05" + OUTPUT + "*END STEP")
+        deck.add(MODES % ("", "3", "*BOUNDARY\nSOLE, 1, 3\n" if sole == "held" else ""))
+        results = run_alike(runner, "sliding_" + sole[0:2], deck, 2)
+        found[sole] = frequencies(results, 2)
+        assert "not symmetric" not in results.log, results.log
+        assert "the state is stable" in results.log, results.log
+        if sole == "sticks":
+            shear, press = np.abs(results.at(9000, "RF", 1)[:2])
+            close(shear / press, friction, 1e-3, "it slides")
+    for sticks, held in zip(found["sticks"], found["held"]):
+        assert 0.97 * held < sticks < held, (sticks, held)
+    assert found["is smooth"][0] < 0.7 * found["held"][0], found
+
+
 CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent,
-                                                strip_buckled, shaft)}
+                                                strip_buckled, shaft, sliding)}
 CASES["cantilever"] = cantilever_modes
 
 if __name__ == "__main__":
