@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "constraint_report.hpp"
+#include "explicit_folding.hpp"
 #include "explicit_step.hpp"
 #include "model/diagnostics.hpp"
 
@@ -58,6 +59,7 @@ bool ExplicitStep::lands() const {
 bool ExplicitStep::observe() {
   const bool landing = lands();
   if (!is_observed()) return true;
+  remember_folding();
   report_failure();
   fill_output();
   if (analysis_.current.increment % regular_increments == 0 || landing || (finished() && !checked_before_landing_))
@@ -68,6 +70,15 @@ bool ExplicitStep::observe() {
   bool go_on = true;
   timers.measure(Phase::output, [&] { go_on = observer_.advanced(analysis_, progress()); });
   return go_on;
+}
+
+void ExplicitStep::remember_folding() {
+  const auto folded = failure_ ? std::nullopt : find_folded_corner(analysis_, failures_);
+  if (!folded) return;
+  failure_ = fmt::format(
+      "step {}, increment {}, time {:.6g}: element {} has turned inside out at node {}: it is distorted beyond what its mesh can "
+      "follow; use smaller elements or elements of a better shape there, let it fail (*SHEAR FAILURE), or load it less",
+      step_.name, analysis_.current.increment, analysis_.current.total_time, folded->element, folded->node);
 }
 
 void ExplicitStep::start_energy_balance() {

@@ -93,6 +93,8 @@ class ExplicitStep {
   /// The new velocities of nodes, without constraints; where nobody looks, their new positions too. @return false: the run has blown up.
   bool move_nodes(const Instant& now);
   [[noreturn]] void report_collapse();
+  /// Elements that have turned inside out at a corner end the run, found whenever somebody looks.
+  void remember_folding();
   Progress progress() const;
 
   Analysis& analysis_;

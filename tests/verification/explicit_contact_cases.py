@@ -138,6 +138,17 @@ def blown_up_at_the_end(job):
     job.run(deck + step, expected_status=3)
 
 
+def crushed_block(job):
+    """A rubber block is crushed until inner nodes pass through the sole: the run ends with the element, the time and the reason, and
+    does not claim to be completed. Crushed less it goes on to its end."""
+    for element in ("C3D8", "C3D8R"):
+        deck = block(4, 4, 4, (5.0, 5.0, 5.0), element, law="*HYPERELASTIC, NEO HOOKE\n1., 0.1", friction=0.5)
+        press = "*BOUNDARY\nTOP, 1, 1\nTOP, 3, 3\n*BOUNDARY, TYPE=VELOCITY\nTOP, 2, 2, -4900.\n" + ENERGIES.format(1e-4)
+        job.run(deck + "*STEP\n*DYNAMIC, EXPLICIT\n, 1.5e-3\n" + press)
+        told = job.run(deck + "*STEP\n*DYNAMIC, EXPLICIT\n, 4e-3\n" + press, expected_status=3)
+        check(f"{element}: the reason is told", float("has turned inside out at node" in told), 1.0, 0.0)
+
+
 def past_the_end(job):
     """A block slides past the end of the profile: the log tells, once."""
     deck = block(2, 1, 1, (5.0, 5.0, 5.0)).replace("START, -100., 0.\nLINE, 100., 0.", "START, -5., 0.\nLINE, 12., 0.")
@@ -179,7 +190,8 @@ def rigid_part(job):
 
 
 CASES = {case.__name__: case for case in (bouncing_plate, hard_hits, pressed_block, rubbing_block, lifted_block, velocities_set_once,
-                                          lost_energy, blown_up_at_the_end, past_the_end, below_the_ground, rigid_part)}
+                                          lost_energy, blown_up_at_the_end, crushed_block, past_the_end, below_the_ground,
+                                          rigid_part)}
 
 if __name__ == "__main__":
     case, balocco, ranks, folder = sys.argv[1:]
