@@ -7,6 +7,7 @@
 
 #include "deck/builder.hpp"
 #include "deck/digest.hpp"
+#include "deck/element_spellings.hpp"
 #include "deck/groups.hpp"
 #include "deck/schedule.hpp"
 #include "deck/shell_sections.hpp"
@@ -98,6 +99,7 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
     throw InputError(std::move(found.errors));
   }
   finish_shells(builder);
+  check_hybrids(builder);
   throw_if_wrong(diagnostics, tokens.files);
   finish_output(builder);  // asks the elements, so the model must be sound
   throw_if_wrong(diagnostics, tokens.files);

@@ -29,7 +29,7 @@ double degrees_of(double radians) {
 }
 
 std::string label_of(const ElementType& type, std::int32_t face) {
-  if (type.shape != Shape::wedge && type.shape != Shape::hexahedron) return face == 0 ? "SPOS" : "SNEG";
+  if (type.section != Section::Kind::solid) return face == 0 ? "SPOS" : "SNEG";
   return fmt::format("S{}", face + 1);
 }
 
@@ -113,7 +113,7 @@ void Writer::sets() {
           std::adjacent_find(set.nodes.begin(), set.nodes.end(), std::greater_equal<>()) == set.nodes.end();
       line("*NSET, NSET={}{}", quoted(set.name), sorted ? "" : ", UNSORTED");
       ids.clear();
-      for (const auto row : set.nodes) ids.push_back(node_id(row));
+      for (const auto row : set.deck_order.empty() ? set.nodes : set.deck_order) ids.push_back(node_id(row));
       values(ids);
     }
   }
@@ -121,7 +121,8 @@ void Writer::sets() {
     for (const auto& set : *sets) {
       line("*ELSET, ELSET={}", quoted(set.name));
       ids.clear();
-      for (const auto element : set.elements) ids.push_back(model_.elements[element.table].id[element.row]);
+      for (const auto element : set.deck_order.empty() ? set.elements : set.deck_order)
+        ids.push_back(model_.elements[element.table].id[element.row]);
       values(ids);
     }
   }
@@ -243,9 +244,10 @@ void Writer::section_line(const char* keyword, const Section& section, std::size
   std::string parameters = ", ELSET=" + quoted(set);
   if (section.material >= 0) parameters += ", MATERIAL=" + quoted(model_.materials[section.material].name);
   if (section.orientation >= 0) parameters += ", ORIENTATION=" + quoted(model_.orientations[section.orientation].name);
-  if (section.hourglass != HourglassControl::enhanced || section.hourglass_scale != 1.0) {
-    line("*SECTION CONTROLS, NAME=CONTROLS-{}, HOURGLASS={}\n{}", row + 1,
-         section.hourglass == HourglassControl::enhanced ? "ENHANCED" : "STIFFNESS", section.hourglass_scale);
+  if (section.hourglass != HourglassControl::enhanced || section.hourglass_scale != 1.0 || section.pointwise_dilatation) {
+    line("*SECTION CONTROLS, NAME=CONTROLS-{}, HOURGLASS={}{}\n{}", row + 1,
+         section.hourglass == HourglassControl::enhanced ? "ENHANCED" : "STIFFNESS",
+         section.pointwise_dilatation ? ", DILATATION=POINTWISE" : "", section.hourglass_scale);
     parameters += fmt::format(", CONTROLS=CONTROLS-{}", row + 1);
   }
   line("*{}{}{}", keyword, parameters, section.plies.empty() ? "" : ", COMPOSITE");
@@ -398,6 +400,17 @@ void Writer::initial_velocities() {
 void Writer::initial_fields() {
   for (std::size_t k = 0; k < model_.initial_fields.size(); ++k) {
     const auto& [field, elements, values, location] = model_.initial_fields[k];
+    const auto& table = model_.elements[elements[0].table];
+    if (values.size() > 6) {  // of one point after the other
+      const std::size_t points = table.type->integration_points, count = values.size() / points;
+      line("*INITIAL CONDITIONS, TYPE=STRESS");
+      for (std::size_t point = 0; point < points; ++point) {
+        std::string numbers;
+        for (std::size_t i = 0; i < count; ++i) numbers += fmt::format(", {}", values[count * point + i]);
+        line("{}, {}{}", table.id[elements[0].row], point + 1, numbers);
+      }
+      continue;
+    }
     std::string numbers;
     for (const double value : values) numbers += fmt::format(", {}", value);
     line("*INITIAL CONDITIONS, TYPE={}\n{}{}", field == "S0" ? "STRESS" : "HARDENING",

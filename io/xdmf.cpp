@@ -22,6 +22,9 @@ const char* topology_of(const std::string& type) {
     case Shape::quadrilateral: return "Quadrilateral";
     case Shape::wedge: return "Wedge";
     case Shape::hexahedron: return "Hexahedron";
+    case Shape::tetrahedron: return "Tetrahedron";
+    case Shape::quadratic_tetrahedron: return "Tetrahedron_10";
+    case Shape::quadratic_hexahedron: return "Hexahedron_20";
     case Shape::point: break;
   }
   return nullptr;

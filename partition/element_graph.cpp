@@ -22,7 +22,12 @@ int nodes_of_an_edge(Shape shape) {
     case Shape::hexahedron:
       return 4;
     case Shape::wedge:
+    case Shape::tetrahedron:
       return 3;
+    case Shape::quadratic_hexahedron:
+      return 8;
+    case Shape::quadratic_tetrahedron:
+      return 6;
     case Shape::quadrilateral:
     case Shape::triangle:
       return 2;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "consistent_mass.hpp"
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
 #include "elements/failure.hpp"
@@ -199,22 +200,23 @@ void Analysis::sum_rotary_inertia() {
 }
 
 const std::vector<double>& Analysis::loaded_share(const BodyLoad& load) const {
-  const bool by_mass = acts_on_mass(load);
-  auto [entry, is_new] = loaded_share_.try_emplace({load.element_set, by_mass}, domain.size(), 0.0);
+  const bool by_mass = acts_on_mass(load), consistent = loads_are_consistent(*this);
+  auto [entry, is_new] = loaded_share_.try_emplace({load.element_set, by_mass, consistent}, domain.size(), 0.0);
   auto& whole = entry->second;
   if (!is_new) return whole;
-  const auto contains = [&](ElementRef element) {
-    if (load.element_set < 0) return true;
-    const auto& elements = model.element_sets[load.element_set].elements;
-    return std::binary_search(elements.begin(), elements.end(), element);
-  };
   std::vector<double> share, sums(4 * (domain.size() + 1), 0.0);
   const auto for_each_share = [&](auto visit) {
     for (const auto& group : element_groups) {
+      ConsistentMass mass(model, *group);
       share.resize(group->nodes_per_element());
       for (std::int32_t e = 0; e < group->size(); ++e) {
-        if (!contains({group->table(), group->row(e)})) continue;
-        by_mass ? group->lumped_mass(e, share) : group->lumped_volume(e, share);
+        if (!acts_on(model, load, {group->table(), group->row(e)})) continue;
+        if (consistent && mass.exists())
+          std::ranges::copy(mass.row_sums(e), share.begin());
+        else
+          group->lumped_volume(e, share);
+        if (by_mass)
+          for (double& volume : share) volume *= group->density();
         for (std::size_t i = 0; i < share.size(); ++i) visit(group->nodes(e)[i], share[i]);
       }
     }
@@ -233,7 +235,7 @@ const std::vector<double>& Analysis::loaded_share(const BodyLoad& load) const {
     if (domain.owned[node]) whole[node] = sums[4 * node];
   if (by_mass)
     for_each_point_mass(model, domain, [&](std::int32_t node, double point_mass, ElementRef element) {
-      if (domain.owned[node] && contains(element)) whole[node] += point_mass;
+      if (domain.owned[node] && acts_on(model, load, element)) whole[node] += point_mass;
     });
   return whole;
 }

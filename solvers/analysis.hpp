@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <string_view>
+#include <tuple>
 #include <vector>
 
 #include "communicator.hpp"
@@ -64,7 +65,7 @@ class Analysis : public ResultSource {
   /// Body whose reference node is this local node, or -1.
   std::int32_t reference_of(std::int32_t local_node) const { return reference_of_[local_node]; }
   /// What a body load acts on: the nodal mass, or reference volume, of its element set, on the nodes that this rank owns, zero
-  /// elsewhere. Collective when it is first asked for.
+  /// elsewhere; of quadratic elements the consistent one in implicit steps. Collective when it is first asked for.
   const std::vector<double>& loaded_share(const BodyLoad& load) const;
   /// Rebuilds what follows from the state, after a checkpoint was read.
   void take_up_checkpoint();
@@ -92,6 +93,8 @@ class Analysis : public ResultSource {
   void nodal(std::string_view variable, std::span<double> values) const override;
   void element(std::size_t group, std::string_view variable, std::int32_t element, int integration_point,
                std::span<double> values) const override;
+  /// Internal force of an element where the state stands, freedoms_per_node() a node; of small strain after linear steps.
+  void internal_force(std::size_t group, std::int32_t element, std::span<double> force) const;
   EnergyBalance energies() const override;
   ContactResultant contact(std::int32_t pair) const override;
 
@@ -117,7 +120,8 @@ class Analysis : public ResultSource {
 
   std::vector<std::int32_t> carrier_, reference_of_, turning_body_;
   double mass_constant_ = 0.0;  // rounds shares of nodal masses
-  mutable std::map<std::pair<std::int32_t, bool>, std::vector<double>> loaded_share_;  // by element set, and whether mass
+  /// By element set, whether mass, and whether consistent.
+  mutable std::map<std::tuple<std::int32_t, bool, bool>, std::vector<double>> loaded_share_;
   mutable SampledEnergies sampled_;  // histories, status and checks of one increment share a sample
   mutable std::unique_ptr<SmallStrainOutput> small_strain_;  // made when a linear state is first asked for output
 };

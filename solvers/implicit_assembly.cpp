@@ -140,15 +140,17 @@ double ImplicitSystem::magnitude_of(const Load& load, const AssemblyRequest& req
 }
 
 void ImplicitSystem::add_pressure_stiffness(const AssemblyRequest& request) {
-  std::array<double, 12> force{};
-  std::array<double, 144> derivative{};
+  constexpr std::size_t most = 3 * PressureFaces::most_nodes;
+  std::array<double, most> force{};
+  std::array<double, most * most> derivative{};
   for (const auto& load : step_.pressures) {
     const auto& faces = *analysis_.pressure_faces[load.surface];
     const double pressure = magnitude_of(load, request);
     for (std::int32_t face = 0; face < faces.size(); ++face) {
       faces.linearize(face, request.load_stiffness ? -pressure : 0.0, analysis_.current.position.data(), force,
                       derivative);
-      stiffness_.add(motions_of(faces.nodes(face)), derivative);
+      const std::size_t size = 3 * faces.nodes(face).size();
+      stiffness_.add(motions_of(faces.nodes(face)), std::span(derivative).first(size * size));
     }
   }
 }

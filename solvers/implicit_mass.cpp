@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <vector>
 
+#include "consistent_mass.hpp"
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
 #include "math/rotation.hpp"
@@ -12,6 +13,31 @@ namespace balocco {
 namespace {
 
 using Block = std::array<double, 9>;
+
+/// Calls `visit(motions, block)` for what consistent masses of this rank's elements differ from the lumped ones by.
+template <class Visit>
+void for_each_consistent_part(const Analysis& analysis, const ImplicitDofMap& map, Visit visit) {
+  std::vector<NodeMotion> motions;
+  std::vector<double> lumped, block;
+  for (const auto& group : analysis.element_groups) {
+    ConsistentMass mass(analysis.model, *group);
+    if (!mass.exists()) continue;
+    const auto count = static_cast<std::size_t>(group->nodes_per_element()), size = 3 * count;
+    lumped.resize(count);
+    for (std::int32_t element = 0; element < group->size(); ++element) {
+      motions.clear();
+      for (const auto node : group->nodes(element)) motions.push_back(map.motion(node));
+      group->lumped_mass(element, lumped);
+      const auto products = mass.products(element);
+      block.assign(size * size, 0.0);
+      for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t j = 0; j < count; ++j)
+          for (std::size_t axis = 0; axis < 3; ++axis)
+            block[size * (3 * i + axis) + 3 * j + axis] = group->density() * products[count * i + j] - (i == j ? lumped[i] : 0.0);
+      visit(motions, block);
+    }
+  }
+}
 
 /// Calls `visit(motion, block)` for every inertia of this rank's nodes and elements: 3 x 3, of a displacement or a spin. Rotations
 /// have the inertia of the material, not that which the explicit loop gives them for its increment's sake.
@@ -61,10 +87,12 @@ void for_each_inertia(const Analysis& analysis, const ImplicitDofMap& map, Visit
 
 void assemble_mass(const Analysis& analysis, const ImplicitDofMap& map, ImplicitStiffness& mass) {
   for_each_inertia(analysis, map, [&](const NodeMotion& motion, const Block&) { mass.add(std::span(&motion, 1), {}); });
+  for_each_consistent_part(analysis, map, [&](const auto& motions, const auto&) { mass.add(motions, {}); });
   mass.finish_pattern();
   mass.start({});
   for_each_inertia(analysis, map,
                    [&](const NodeMotion& motion, const Block& block) { mass.add(std::span(&motion, 1), block); });
+  for_each_consistent_part(analysis, map, [&](const auto& motions, const auto& block) { mass.add(motions, block); });
   mass.finish();
 }
 

@@ -1,4 +1,5 @@
-// The mass matrix of the free slots: lumped masses and the rotary inertia of the material, moved as the constraints move them.
+// The mass matrix of the free slots: lumped masses, consistent ones of quadratic elements, and the rotary inertia of the material,
+// moved as the constraints move them.
 #pragma once
 
 #include "implicit_stiffness.hpp"

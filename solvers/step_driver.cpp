@@ -1,5 +1,6 @@
 #include "step_driver.hpp"
 
+#include "consistent_mass.hpp"
 #include "loads/body_load.hpp"
 
 namespace balocco {
@@ -50,6 +51,8 @@ void add_body_load(const Analysis& analysis, const BodyLoad& load, double magnit
       const auto addend = body_force(load, magnitude, share[node], position + 4 * node);
       add_rounded(force + 4 * node, {addend[0], addend[1], addend[2]});
     }
+  if (load.kind == BodyLoad::Kind::centrifugal && loads_are_consistent(analysis))
+    add_centrifugal_coupling(analysis, load, magnitude, position, force);
 }
 
 }  // namespace

@@ -18,6 +18,16 @@ void sort_unique(std::vector<T>& values) {
   values.erase(std::unique(values.begin(), values.end()), values.end());
 }
 
+/// Takes repetitions out of what a deck lists, and all of it where the order is that of `members`.
+template <class T>
+void settle_order(const std::vector<T>& members, std::vector<T>& listed) {
+  if (listed != members) {
+    std::set<T> seen;
+    std::erase_if(listed, [&](const T& member) { return !seen.insert(member).second; });
+  }
+  if (listed == members) listed = {};
+}
+
 std::string after_instance(std::string_view name) {
   const auto dot = name.rfind('.');
   return std::string(dot == std::string_view::npos ? name : name.substr(dot + 1));
@@ -225,11 +235,13 @@ std::int32_t Builder::element_set_row(std::string_view name) {
 
 void Builder::add_to_node_set(std::int32_t set, std::int32_t row) {
   model.node_sets[set].nodes.push_back(row);
+  model.node_sets[set].deck_order.push_back(row);
   node_set_dirty_[set] = true;
 }
 
 void Builder::add_to_element_set(std::int32_t set, ElementRef element) {
   model.element_sets[set].elements.push_back(element);
+  model.element_sets[set].deck_order.push_back(element);
   element_set_dirty_[set] = true;
 }
 
@@ -248,8 +260,10 @@ const std::vector<ElementRef>& Builder::elements_in(std::int32_t set) {
 }
 
 void Builder::normalize_sets() {
-  for (std::size_t set = 0; set < model.node_sets.size(); ++set) nodes_in(static_cast<std::int32_t>(set));
-  for (std::size_t set = 0; set < model.element_sets.size(); ++set) elements_in(static_cast<std::int32_t>(set));
+  for (std::size_t set = 0; set < model.node_sets.size(); ++set)
+    settle_order(nodes_in(static_cast<std::int32_t>(set)), model.node_sets[set].deck_order);
+  for (std::size_t set = 0; set < model.element_sets.size(); ++set)
+    settle_order(elements_in(static_cast<std::int32_t>(set)), model.element_sets[set].deck_order);
 }
 
 Row::Row(Builder& builder, const Block& block, const DataLine& line) : builder_(builder), block_(block), line_(line) {

@@ -43,6 +43,13 @@ struct Scope {
 struct SectionControls {
   HourglassControl hourglass = HourglassControl::enhanced;
   double hourglass_scale = 1.0;
+  bool pointwise_dilatation = false;
+};
+
+/// Elements of one *ELEMENT block.
+struct ElementRange {
+  const Block* block;
+  std::int32_t table, first, last;  // rows first .. last - 1
 };
 
 /// A coordinate system for nodes: *SYSTEM or *NODE, SYSTEM=.
@@ -66,6 +73,8 @@ class Builder {
   std::map<std::string, double> fastener_radius;
   std::map<std::string, std::vector<double>> time_points;
   std::unordered_map<std::int64_t, ElementRef> element_of_id;
+  std::set<std::string> spellings_told;        // element types that are computed as others
+  std::vector<ElementRange> locking_hybrids;  // element_spellings.hpp
   std::vector<std::array<std::int32_t, 4>> sorted_solid_faces;  // filled when a surface first asks for free faces
   std::set<std::int32_t> unsorted_node_sets;
   std::set<std::int32_t> absolute_amplitudes;  // *AMPLITUDE, VALUE=ABSOLUTE: magnitudes that refer to them become 1
@@ -84,6 +93,7 @@ class Builder {
   StepDraft draft;                       // the step being read
   const Block* coupling = nullptr;       // the last *COUPLING
   std::set<const Block*> refused_steps;  // *STEP blocks in which something was refused
+  bool static_perturbation = false;      // the first step is one: none may follow
   bool in_step = false;
   bool first_pass = false;       // nodes and elements phases: what refers to things defined further down is put off
   bool put_off = false;          // set by a handler that wants to be called again

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "deck/builder.hpp"
+#include "deck/element_spellings.hpp"
 #include "deck/mesh.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
@@ -74,7 +75,7 @@ std::string_view first_field(const Block& block) {
 }
 
 const ElementType* type_of(Builder& builder, const Block& block) {
-  const std::string name = block.value("TYPE");
+  const std::string name = computed_as(builder, block, block.value("TYPE"));
   const ElementType* type = find_element_type(name);
   if (type == nullptr) {
     std::vector<std::string> known;
@@ -172,7 +173,12 @@ class ElementReader {
 };
 
 void read_elements(Builder& builder, const Block& block) {
-  if (const ElementType* type = type_of(builder, block)) ElementReader(builder, block, *type).read();
+  const ElementType* type = type_of(builder, block);
+  if (type == nullptr) return;
+  ElementReader reader(builder, block, *type);
+  const auto table = table_of(builder, type), first = builder.model.elements[table].size();
+  reader.read();
+  if (can_lock(block.value("TYPE"))) builder.locking_hybrids.push_back({&block, table, first, builder.model.elements[table].size()});
 }
 
 /// Adds a copy of an element with its node ids shifted.

@@ -47,8 +47,11 @@ const char* describe(Shape shape) {
     case Shape::triangle:
     case Shape::quadrilateral:
       return "a surface";
+    case Shape::tetrahedron:
     case Shape::wedge:
     case Shape::hexahedron:
+    case Shape::quadratic_tetrahedron:
+    case Shape::quadratic_hexahedron:
       return "a solid";
   }
   return "";
@@ -80,6 +83,12 @@ void assign_section(Builder& builder, const Block& block, Section section, const
     std::int32_t& owner = table.section[element.row];
     if (table.type->section != section.kind) {
       return builder.error(block, block.location, misfit(builder.model, block, element, elements, section.kind));
+    }
+    if (section.pointwise_dilatation && table.type->name != "C3D8") {
+      return builder.error(block, block.location,
+                           fmt::format("DILATATION=POINTWISE of its section controls chooses how a C3D8 is integrated, but element {} "
+                                       "is a {}; give the C3D8 a section of their own",
+                                       builder.model.element_name(element), table.type->name));
     }
     if (owner >= 0) {
       return builder.error(
@@ -121,6 +130,7 @@ std::optional<Section> begin_section(Builder& builder, const Block& block, std::
     } else {
       section.hourglass = controls->second.hourglass;
       section.hourglass_scale = controls->second.hourglass_scale;
+      section.pointwise_dilatation = controls->second.pointwise_dilatation;
     }
   }
   // An empty set has been told, or is what is left of refused elements.

@@ -127,6 +127,7 @@ void read_rotary_inertia(Builder& builder, const Block& block) {
 void read_section_controls(Builder& builder, const Block& block) {
   SectionControls controls;
   if (block.value("HOURGLASS") == "STIFFNESS") controls.hourglass = HourglassControl::stiffness;
+  controls.pointwise_dilatation = block.value("DILATATION") == "POINTWISE";
   if (!block.lines.empty()) {
     Row row(builder, block, block.lines[0]);
     controls.hourglass_scale = row.real_or(0, 1.0, "scale of the hourglass stiffness");
@@ -165,7 +166,7 @@ const RegisterKeyword controls{{"SECTION CONTROLS",
                                 Phase::definitions,
                                 Place::model,
                                 {required(name("NAME")), choice("HOURGLASS", {"ENHANCED", "STIFFNESS"}),
-                                 choice("SECOND ORDER ACCURACY", {"YES", "NO"})},
+                                 choice("SECOND ORDER ACCURACY", {"YES", "NO"}), choice("DILATATION", {"MEAN", "POINTWISE"})},
                                 read_section_controls}};
 
 }  // namespace

@@ -27,6 +27,12 @@ std::vector<const ElementType*> element_types() {
   return types;
 }
 
+std::vector<int> nodes_of_face(const ElementType& type, int face) {
+  std::vector<int> nodes = type.faces[face];
+  if (!type.face_midsides.empty()) nodes.insert(nodes.end(), type.face_midsides[face].begin(), type.face_midsides[face].end());
+  return nodes;
+}
+
 bool is_rigid(const Model& model, const Surface& surface) {
   if (surface.kind == Surface::Kind::analytical) return true;
   return !surface.faces.empty() && std::ranges::all_of(surface.faces, [&](const FaceRef& face) {

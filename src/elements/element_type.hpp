@@ -12,7 +12,17 @@
 
 namespace balocco {
 
-enum class Shape { point, line, triangle, quadrilateral, wedge, hexahedron };
+enum class Shape {
+  point,
+  line,
+  triangle,
+  quadrilateral,
+  tetrahedron,
+  wedge,
+  hexahedron,
+  quadratic_tetrahedron,  // corners, then the middles of the edges
+  quadratic_hexahedron
+};
 
 struct ElementType {
   std::string name;  // as the deck says it, upper case
@@ -21,14 +31,23 @@ struct ElementType {
   int integration_points = 1;
   bool turns = false;  // its nodes rotate: 6 freedoms a node
   Section::Kind section = Section::Kind::solid;
-  /// Local node numbers of each face, counter-clockwise seen from outside (membranes: SPOS then SNEG).
+  /// Local node numbers of the corners of each face, counter-clockwise seen from outside (membranes: SPOS then SNEG).
   std::vector<std::vector<int>> faces;
+  /// Quadratic elements: of each face the nodes behind its corners, in the middle of the edges that begin there.
+  std::vector<std::vector<int>> face_midsides = {};
+  bool implicit_only = false;  // explicit steps do not compute it
   /// Nanoseconds of one core per element and explicit cycle, in the middle of the laws that balocco_bench measures (elastic to
   /// Mooney-Rivlin, about a third to either side): estimates and the weights of the partition live on it.
   double cycle_cost = 100.0;
   /// Builds the force kernel of one section's elements on one rank; null for MASS and ROTARYI, which only carry inertia.
   std::unique_ptr<ElementGroup> (*make_group)(const GroupInput&) = nullptr;
+  /// Integrals of N_I N_J over the reference volume (row-major, square), from which implicit steps make consistent masses and
+  /// loads; null: they lump both, as explicit steps do.
+  void (*shape_products)(std::span<const Point> nodes, std::span<double> products) = nullptr;
 };
+
+/// All local nodes of a face, corners first.
+std::vector<int> nodes_of_face(const ElementType& type, int face);
 
 /// The type of that name (upper case), or nullptr.
 const ElementType* find_element_type(std::string_view name);

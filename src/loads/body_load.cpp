@@ -1,8 +1,16 @@
 #include "loads/body_load.hpp"
 
+#include <algorithm>
+
 namespace balocco {
 
 bool acts_on_mass(const BodyLoad& load) { return load.kind != BodyLoad::Kind::volume_force; }
+
+bool acts_on(const Model& model, const BodyLoad& load, ElementRef element) {
+  if (load.element_set < 0) return true;
+  const auto& elements = model.element_sets[load.element_set].elements;
+  return std::binary_search(elements.begin(), elements.end(), element);
+}
 
 Vector3<double> body_force(const BodyLoad& load, double magnitude, double share, const double* position) {
   const double factor = magnitude * share;

@@ -2,12 +2,15 @@
 #pragma once
 
 #include "math/tensor.hpp"
-#include "model/step.hpp"
+#include "model/model.hpp"
 
 namespace balocco {
 
 /// Whether a load acts on mass, or on reference volume.
 bool acts_on_mass(const BodyLoad& load);
+
+/// Whether it acts on an element.
+bool acts_on(const Model& model, const BodyLoad& load, ElementRef element);
 
 /// Force on a node of share `share` (of mass, or of reference volume) at `position`. Centrifugal: m omega^2 (x - (x . a) a), x from
 /// the axis' point, a the axis.

@@ -10,10 +10,11 @@
 #include "constraints/linkages.hpp"
 #include "elements/element_type.hpp"
 #include "elements/solids/solid_jacobian.hpp"
-#include "loads/body_load.hpp"
 #include "materials/material_option.hpp"
 #include "model/check_constraints.hpp"
+#include "model/check_density.hpp"
 #include "model/check_failure.hpp"
+#include "model/check_quadratic.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -38,8 +39,8 @@ class Checker {
     check_initial_fields();
     find_idle_nodes();
     for (const auto& step : model_.steps) check_step(step);
-    for (const auto& [location, text] : check_failure(model_)) error(location, text);
-    for (const auto& [location, text] : check_constraints(model_)) error(location, text);
+    for (const auto& check : {check_constraints, check_density, check_failure, check_quadratic})
+      for (const auto& [location, text] : check(model_)) error(location, text);
     return std::move(found_);
   }
 
@@ -71,7 +72,6 @@ class Checker {
   }
   void check_step(const Step& step);
   void check_boundary(const Step& step);
-  void check_density(const Step& step);
   Point point(const ElementTable& table, std::int32_t row, int node) const {
     return model_.nodes.coordinates[table.connectivity[row * table.type->nodes + node]];
   }
@@ -367,29 +367,12 @@ void Checker::check_boundary(const Step& step) {
   }
 }
 
-void Checker::check_density(const Step& step) {
-  const bool loads_mass = std::ranges::any_of(step.body_loads, acts_on_mass);
-  if (!step.needs_mass() && !loads_mass) return;
-  const auto why = step.needs_mass() ? fmt::format("step {} ({})", step.name, step.procedure_name()) : "a load on mass (GRAV, CENTRIF)";
-  const auto need = [&](std::int32_t material) {
-    if (material < 0 || model_.materials[material].density > 0.0) return;
-    error(model_.materials[material].location,
-          fmt::format("*MATERIAL: material {} has no density, which {} needs; add *DENSITY",
-                      model_.materials[material].name, why));
-  };
-  for (const auto& section : model_.sections) {
-    need(section.material);
-    for (const auto& ply : section.plies) need(ply.material);
-  }
-}
-
 void Checker::check_step(const Step& step) {
   for (const auto& change : step.attachments) {
     for (const auto node : change.nodes) carrier_[node] = change.release ? -1 : change.rigid_body;
   }
   check_boundary(step);
   check_loads(step);
-  check_density(step);
 }
 
 }  // namespace

@@ -60,11 +60,13 @@ struct ElementTable {
 struct NodeSet {
   std::string name;
   std::vector<std::int32_t> nodes;  // sorted rows without repetition, unless the deck said UNSORTED
+  std::vector<std::int32_t> deck_order = {};  // the same as the deck lists them, for printed tables; empty: as `nodes`
 };
 
 struct ElementSet {
   std::string name;
   std::vector<ElementRef> elements;  // sorted, without repetition
+  std::vector<ElementRef> deck_order = {};  // as of node sets
 };
 
 /// A face of a solid (S1..S6: face 0..5), or a side of a membrane or shell (face 0: SPOS, 1: SNEG).
@@ -187,6 +189,7 @@ struct Section {
   ShellOptions shell;
   HourglassControl hourglass = HourglassControl::enhanced;
   double hourglass_scale = 1.0;
+  bool pointwise_dilatation = false;    // C3D8: volume changes at each point by its own, not by the mean of all
   double mass = 0.0;                    // MASS elements
   std::array<double, 6> inertia{};      // ROTARYI: I11 I22 I33 I12 I13 I23 about the node
   SpringProperty spring;                // springs and dashpots

@@ -103,6 +103,19 @@ struct HistoryOutput {
   std::vector<std::int32_t> contact_pairs;   // rows: resultant force CFN, CFT, CAREA, centre of pressure XN
 };
 
+/// *NODE PRINT, *EL PRINT, *SECTION PRINT: tables in JOB.dat, each of one set and one variable.
+struct PrintOutput {
+  enum class Kind { nodes, elements, section } kind = Kind::nodes;
+  enum class Totals { none, also, only };  // sums over the set: not printed, behind the table, in its place
+  std::int32_t set = -1;        // row of Model::node_sets, element_sets or surfaces
+  std::string set_name;         // as the deck says it
+  std::string section_name;     // *SECTION PRINT, NAME=
+  std::vector<std::string> variables;
+  Totals totals = Totals::none;
+  bool global_directions = true;  // of nodes; false: those of *TRANSFORM
+  std::int32_t frequency = 1;     // every n increments, and the last of a step
+};
+
 /// Convergence controls of *CONTROLS (Abaqus's meanings and defaults).
 struct ImplicitControls {
   double residual_tolerance = 5e-3;    // largest residual / average force
@@ -175,6 +188,7 @@ struct Step {
   std::vector<RigidAttachment> attachments;
   std::vector<FieldOutput> field_outputs;
   std::vector<HistoryOutput> history_outputs;
+  std::vector<PrintOutput> print_outputs;
   std::optional<std::int32_t> checkpoint_frequency;       // *RESTART, WRITE, FREQUENCY (increments)
   std::optional<std::int32_t> checkpoint_number_interval;  // *RESTART, WRITE, NUMBER INTERVAL
 

@@ -1,4 +1,4 @@
-// C3D8: the fully integrated brick.
+// C3D8: the fully integrated brick, with the mean dilatation unless its section says otherwise.
 #include "elements/solids/full_solid_explicit.hpp"
 #include "elements/solids/solid_faces.hpp"
 
@@ -7,6 +7,8 @@ namespace balocco {
 namespace {
 
 std::unique_ptr<ElementGroup> make_group(const GroupInput& input) {
+  if (input.model.sections.at(input.section).pointwise_dilatation)
+    return std::make_unique<FullSolid<PlainHexahedronShape>>(input);
   return std::make_unique<FullSolid<HexahedronShape>>(input);
 }
 

@@ -1,4 +1,4 @@
-// C3D8 and C3D6: fully integrated solids with mean dilatation, one template over shape and quadrature. The explicit
+// Fully integrated solids, one template over shape and quadrature (full_solid_shapes.hpp, nodal_shapes.hpp). The explicit
 // kernel is in full_solid_explicit.hpp, the tangent in full_solid_static.hpp: each type compiles them apart.
 #pragma once
 
@@ -30,7 +30,7 @@ class FullSolid final : public ElementGroup {
   }
   double density() const override { return material_.density; }
   void lumped_volume(std::int32_t element, std::span<double> volume) const override {
-    std::fill(volume.begin(), volume.end(), reference(element)[Record::volume] / Shape::nodes);
+    for (int node = 0; node < Shape::nodes; ++node) volume[node] = Shape::mass_share[node] * reference(element)[Record::volume];
   }
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                              std::span<double> history) const override;
@@ -46,7 +46,7 @@ class FullSolid final : public ElementGroup {
   int point_components(std::string_view variable) const override { return solid_output_components(material_, variable); }
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override {
-    const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), reference(element));
+    const auto k = kinematics_of(element, motion, history);
     solid_output(variable, material_, k.modified[integration_point], law_history(history, integration_point), values);
   }
   int integration_points() const override { return Shape::points; }
@@ -56,13 +56,16 @@ class FullSolid final : public ElementGroup {
 
  private:
   using Record = FullSolidRecord<Shape>;
-  static_assert(Shape::points * pack_size <= PointBatch<PointKind::solid>::capacity);
+  static_assert(!Shape::explicit_steps || Shape::points * pack_size <= PointBatch<PointKind::solid>::capacity);
   template <class T>
   using Coefficients = std::array<Vector3<T>, Shape::modes>;
   template <class T>
   using Tensors = std::array<Matrix3<T>, Shape::points>;
 
-  static constexpr int own_history = 3;  // Jbar, viscous dissipation and mean stress after the last increment; then the law's, by point
+  using Tangents = std::array<std::array<double, 81>, Shape::points>;
+
+  // Jbar, viscous dissipation and mean stress after the last increment, amplitudes of bubbles; then the law's, by point.
+  static constexpr int first_bubble = 3, own_history = has_bubbles<Shape> ? 12 : 3;
 
   int law_row(int point) const { return own_history + point * material_.law->history_size(); }
   template <class T>
@@ -86,8 +89,40 @@ class FullSolid final : public ElementGroup {
   /// Bound of the elastic stiffness; `dilatation` is V |d(ln Jbar)/dx|^2.
   Pack stiffness_bound(const Coefficients<Pack>& c, const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,
                        const PointBatch<PointKind::solid>& points, const Pack& dilatation, const PackReference& reference) const;
+  /// Largest eigenvalue of sum_q w (F^-T : dF)^2 over the nodes of a free element, masses weighed in; at least that of V tau^2.
+  Pack dilatation_bound(const FullSolidKinematics<Pack, Shape>& k, const Pack& of_mean, const PackReference& reference) const;
+  void stiffness_of_mean(std::int32_t element, const NodalMotion& motion, const Tensors<double>& stress, const Tangents& tangent,
+                         std::span<double> stiffness) const;
+  void stiffness_of_points(const LaneReference& record, const Tangents& tangent, std::span<double> stiffness) const;
   template <class T>
   Coefficients<T> coefficients_of(std::int32_t element, const double* position) const;
+  /// Of one element with its own history.
+  FullSolidKinematics<double, Shape> kinematics_of(std::int32_t element, const NodalMotion& motion,
+                                                   std::span<const double> history) const {
+    BubbleAmplitudes<double> amplitude{};
+    if constexpr (has_bubbles<Shape>)
+      for (int i = 0; i < 9; ++i) amplitude[i / 3][i % 3] = history[first_bubble + i];
+    return full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), reference(element), amplitude);
+  }
+  /// Of a pack of elements with the history of the group.
+  FullSolidKinematics<Pack, Shape> pack_kinematics(std::int32_t element, const Coefficients<Pack>& c,
+                                                   std::span<const double> history) const {
+    return full_solid_kinematics<Shape>(c, pack_reference(element), pack_amplitudes(element, history));
+  }
+  BubbleAmplitudes<Pack> pack_amplitudes(std::int32_t element, std::span<const double> history) const {
+    BubbleAmplitudes<Pack> amplitude{};
+    if constexpr (has_bubbles<Shape>)
+      for (int i = 0; i < 9; ++i)
+        amplitude[i / 3][i % 3].copy_from(&history[(first_bubble + i) * static_cast<std::ptrdiff_t>(padded_size_) + element],
+                                          std::experimental::element_aligned);
+    return amplitude;
+  }
+  // Of shapes with bubbles, full_solid_bubbles.hpp.
+  void settle_bubbles(std::int32_t element, const Coefficients<Pack>& c, double increment, PointBatch<PointKind::solid>& points,
+                      std::span<double> history) const;
+  bool linearize_with_bubbles(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
+                              std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const;
+  void store_flexibility(std::int32_t lane);
 
   PackReference pack_reference(std::int32_t element) const {
     return {records_.data() + static_cast<std::size_t>(element) * Record::size};
@@ -100,6 +135,7 @@ class FullSolid final : public ElementGroup {
   SolidMaterial material_;
   double natural_laplacian_;  // largest eigenvalue of sum_q dN_I/dxi . dN_J/dxi
   AlignedVector<double> records_;  // [pack][component][lane]
+  mutable std::vector<double> kept_history_;  // bubbles: of the law in a pack while they settle
 };
 
 template <class Shape>

@@ -15,6 +15,12 @@
 
 namespace balocco {
 
+/// Mean of a free element's nodal masses over that of a node.
+template <class Shape>
+constexpr double inverse_mass_ratio(int node) {
+  return 1.0 / (Shape::nodes * Shape::mass_share[node]);
+}
+
 template <class Shape>
 std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
     const std::array<Vector3<double>, Shape::nodes>& nodes) {
@@ -47,11 +53,24 @@ std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
       const auto nodal = Shape::nodal(conjugate);
       for (int node = 0; node < Shape::nodes; ++node) gradient(j, node) = nodal[node][0];
     }
-    laplacian += point[9] * gradient.transpose() * gradient;
     mean += point[9] * gradient;
+    for (int node = 0; node < Shape::nodes; ++node) gradient.col(node) *= std::sqrt(inverse_mass_ratio<Shape>(node));
+    laplacian += point[9] * gradient.transpose() * gradient;
   }
   mean /= volume;
   record[Record::volume] = volume;
+  if constexpr (has_bubbles<Shape>) {
+    Matrix3<double> jacobian;  // at the centre
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) jacobian(i, j) = c[j][i];
+    const Matrix3<double> cof = cofactor(jacobian);
+    const double det = determinant(jacobian, cof);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) {
+        record[Record::centre + 3 * i + j] = cof(j, i) / det;
+        record[Record::bubble + 3 * i + j] = -2.0 * cof(j, i);
+      }
+  }
   record[Record::laplacian_bound] =
       Eigen::SelfAdjointEigenSolver<decltype(laplacian)>(laplacian, Eigen::EigenvaluesOnly)
           .eigenvalues()(Shape::nodes - 1);
@@ -62,7 +81,7 @@ std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
   return record;
 }
 
-/// Largest eigenvalue of sum_q dN_I/dxi . dN_J/dxi.
+/// Largest eigenvalue of sum_q dN_I/dxi . dN_J/dxi, each over the root of its node's mass by the mean one.
 template <class Shape>
 double natural_laplacian() {
   static constexpr auto quadrature = Shape::quadrature();
@@ -73,7 +92,7 @@ double natural_laplacian() {
       for (int k = 0; k < Shape::modes; ++k) derivative[k][0] = quadrature[q].derivative[k][j];
       const auto nodal = Shape::nodal(derivative);
       Eigen::Matrix<double, Shape::nodes, 1> gradient;
-      for (int node = 0; node < Shape::nodes; ++node) gradient(node) = nodal[node][0];
+      for (int node = 0; node < Shape::nodes; ++node) gradient(node) = std::sqrt(inverse_mass_ratio<Shape>(node)) * nodal[node][0];
       laplacian += gradient * gradient.transpose();
     }
   return Eigen::SelfAdjointEigenSolver<decltype(laplacian)>(laplacian, Eigen::EigenvaluesOnly).eigenvalues()(Shape::nodes - 1);
@@ -93,17 +112,22 @@ FullSolid<Shape>::FullSolid(const GroupInput& input)
     double* data =
         records_.data() + static_cast<std::size_t>(lane / pack_size) * pack_size * Record::size + lane % pack_size;
     for (int k = 0; k < Record::size; ++k) data[pack_size * k] = record[k];
+    if constexpr (has_bubbles<Shape>) store_flexibility(lane);
   }
+  if constexpr (has_bubbles<Shape>)
+    kept_history_.resize(static_cast<std::size_t>(Shape::points) * material_.law->history_size() * pack_size);
 }
 
 template <class Shape>
 StableIncrement FullSolid<Shape>::add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle,
                                              std::span<double> history) const {
   StableIncrement smallest;
-  PointBatch<PointKind::solid> points;
-  for (const auto& run : runs)
-    for (std::int32_t element = run.first; element < run.last; element += pack_size)
-      merge(add_pack(element, cycle, points, history), element, smallest);
+  if constexpr (Shape::explicit_steps) {  // of the others there are none in explicit steps (model/check.cpp)
+    PointBatch<PointKind::solid> points;
+    for (const auto& run : runs)
+      for (std::int32_t element = run.first; element < run.last; element += pack_size)
+        merge(add_pack(element, cycle, points, history), element, smallest);
+  }
   return smallest;
 }
 
@@ -139,7 +163,8 @@ template <class Shape>
   const PackReference reference = pack_reference(element);
   prefetch_record(reference.data + pack_size * Record::size, Record::size);
   const auto c = gather_coefficients(element, cycle.motion.position);
-  const auto k = full_solid_kinematics<Shape>(c, reference);
+  if constexpr (has_bubbles<Shape>) settle_bubbles(element, c, cycle.increment, points, history);
+  const auto k = pack_kinematics(element, c, history);
   for (int q = 0; q < Shape::points; ++q)
     for (int i = 0; i < 9; ++i) store(k.modified[q].component[i], &points.strain[i][pack_size * q]);
   respond(element, cycle.increment, points, history);
@@ -175,7 +200,7 @@ template <class Shape>
                                                       std::span<ElementEnergies, pack_size> of_lanes) const {
   const PackReference reference = pack_reference(element);
   prefetch_record(reference.data + pack_size * Record::size, Record::size);
-  const auto k = full_solid_kinematics<Shape>(gather_coefficients(element, motion.position), reference);
+  const auto k = pack_kinematics(element, gather_coefficients(element, motion.position), history);
   for (int lane = 0; lane < pack_size; ++lane) of_lanes[lane] = {.viscous = history[padded_size_ + element + lane]};
   PointBatch<PointKind::solid> points;
   points.count = pack_size;
@@ -204,19 +229,52 @@ Pack FullSolid<Shape>::add_damping(std::int32_t element, const ExplicitCycle& cy
   Pack mean = 0.0;
   for (int q = 0; q < Shape::points; ++q) {
     rate[q] = k.scale[q] * deformation_gradient<Shape>(c_rate, q, reference);
+    if constexpr (has_bubbles<Shape>) rate[q] = rate[q] + centre_gradient<Shape>(c_rate, reference) * k.bubble[q];
     dilatation[q] = inverse * double_contraction(cofactor(k.modified[q]), rate[q]);
     mean += reference[Record::point(q) + 9] * (k.jacobian[q] * dilatation[q]);
   }
   mean = mean * inverse / reference[Record::volume];
   Pack power = 0.0;
   for (int q = 0; q < Shape::points; ++q) {
-    rate[q] = rate[q] + ((1.0 / 3.0) * (mean - dilatation[q])) * k.modified[q];
+    if constexpr (Shape::mean_dilatation) rate[q] = rate[q] + ((1.0 / 3.0) * (mean - dilatation[q])) * k.modified[q];
     Pack density;
     const Matrix3<Pack> viscous = k.modified[q] * rate_stress(material_.stiffness, k.modified[q], rate[q], density);
     stress[q] = stress[q] + Pack(material_.damping_beta) * viscous;
     power += material_.damping_beta * (reference[Record::point(q) + 9] * density);
   }
   return power;
+}
+
+// sum_q w g_q (x) g_q, g_q the gradients of ln J by the nodes over the roots of their relative masses, has the eigenvalues of
+// the small matrix of sqrt(w_p w_q) g_p . g_q; of those the largest is at most the fourth root of the sum of fourth powers.
+template <class Shape>
+[[gnu::noinline]] Pack FullSolid<Shape>::dilatation_bound(const FullSolidKinematics<Pack, Shape>& k, const Pack& of_mean,
+                                        const PackReference& reference) const {
+  if constexpr (Shape::points == 1) return of_mean;
+  std::array<std::array<Vector3<Pack>, Shape::nodes>, Shape::points> gradient;
+  for (int q = 0; q < Shape::points; ++q) {
+    Coefficients<Pack> conjugates{};
+    add_conjugates<Shape>(cofactor(k.modified[q]), q, reference, conjugates);
+    gradient[q] = Shape::nodal(conjugates);
+    const Pack scale = square_root(reference[Record::point(q) + 9]) / k.jacobian[q];
+    for (int node = 0; node < Shape::nodes; ++node)
+      gradient[q][node] = (std::sqrt(inverse_mass_ratio<Shape>(node)) * scale) * gradient[q][node];
+  }
+  std::array<std::array<Pack, Shape::points>, Shape::points> product;
+  for (int p = 0; p < Shape::points; ++p)
+    for (int q = 0; q <= p; ++q) {
+      Pack sum = 0.0;
+      for (int node = 0; node < Shape::nodes; ++node) sum += dot(gradient[p][node], gradient[q][node]);
+      product[p][q] = product[q][p] = sum;
+    }
+  Pack fourth = 0.0;
+  for (int p = 0; p < Shape::points; ++p)
+    for (int q = 0; q < Shape::points; ++q) {
+      Pack square = 0.0;
+      for (int r = 0; r < Shape::points; ++r) square += product[p][r] * product[r][q];
+      fourth += square * square;
+    }
+  return square_root(square_root(fourth));
 }
 
 template <class Shape>
@@ -227,6 +285,20 @@ Pack FullSolid<Shape>::stiffness_bound(const Coefficients<Pack>& c, const FullSo
   const auto tangent = [&](int q) {
     return TangentBound<Pack>{load(&points.volumetric_modulus[pack_size * q]), load(&points.shear_modulus[pack_size * q])};
   };
+  if constexpr (!Shape::mean_dilatation) {
+    TangentBound<Pack> bound = tangent(0);
+    for (int q = 1; q < Shape::points; ++q) {
+      bound.volumetric = maximum(bound.volumetric, tangent(q).volumetric);
+      bound.shear = maximum(bound.shear, tangent(q).shear);
+    }
+    const Pack stiffness =
+        bound.volumetric * dilatation_bound(k, dilatation, reference) + 2.0 * bound.shear * reference[Record::laplacian_bound];
+    if constexpr (!has_bubbles<Shape>) return stiffness;
+    Pack bubble = 0.0;  // |dF0 H| adds to |dF|; that the amplitudes follow only softens
+    for (const auto& h : k.bubble) bubble = maximum(bubble, double_contraction(h, h));
+    const Pack factor = 1.0 + square_root(bubble);
+    return stiffness * (factor * factor);
+  }
   std::array<InitialStress<Pack>, Shape::points> initial;
   Pack mean_pressure = 0.0;
   for (int q = 0; q < Shape::points; ++q) {
@@ -257,7 +329,7 @@ Pack FullSolid<Shape>::stable_increment(const Coefficients<Pack>& c, const FullS
   // d(ln Jbar)/dx is the nodal force of a unit mean stress, over V Jbar.
   const auto gradient = Shape::nodal(full_solid_conjugates<Shape>(k, Tensors<Pack>{}, Pack(1.0), reference));
   Pack square = 0.0;
-  for (const auto& node : gradient) square += dot(node, node);
+  for (int node = 0; node < Shape::nodes; ++node) square += inverse_mass_ratio<Shape>(node) * dot(gradient[node], gradient[node]);
   const Pack dilatation = square * ((inverse * inverse) * inverse_volume);  // V |d(ln Jbar)/dx|^2
 
   const Pack stiffness = stiffness_bound(c, k, stress, points, dilatation, reference);

@@ -1,4 +1,9 @@
-// Shapes and quadratures of the fully integrated solids, in polynomial coefficients: x = c_0 + sum_k c_k h_k.
+// Shapes and quadratures of the fully integrated solids, in coefficients: x = c_0 + sum_k c_k h_k. Every shape says
+//   natural_modes    whether h_1 .. h_3 are the natural coordinates themselves
+//   mean_dilatation  whether its volume changes by the mean of its points (full_solid_kernel.hpp) or at each by its own
+//   explicit_steps   whether it has an explicit kernel
+//   bubbles          declared where it has incompatible modes
+//   mass_share       each node's part of a lumped mass.
 #pragma once
 
 #include <array>
@@ -15,15 +20,30 @@ struct ShapePoint {
   double weight = 0.0;
 };
 
-/// Trilinear brick, 2 x 2 x 2 Gauss points in the order of the nodes.
-struct HexahedronShape {
+template <int nodes>
+constexpr std::array<double, nodes> equal_shares() {
+  std::array<double, nodes> shares{};
+  for (double& share : shares) share = 1.0 / nodes;
+  return shares;
+}
+
+/// Trilinear brick, 2 x 2 x 2 Gauss points, the first natural coordinate running fastest.
+template <bool mean>
+struct BrickShape {
   static constexpr int nodes = 8, modes = 7, points = 8;
+  static constexpr bool natural_modes = true, mean_dilatation = mean, explicit_steps = true;
+  static constexpr auto mass_share = equal_shares<nodes>();
+
+  /// Natural coordinate of a point.
+  static constexpr double place(int q, int axis) {
+    constexpr double gauss = 0.57735026918962576451;  // 1 / sqrt(3)
+    return (q >> axis) % 2 == 0 ? -gauss : gauss;
+  }
 
   static constexpr std::array<ShapePoint<modes>, points> quadrature() {
-    constexpr double g = 0.57735026918962576451;  // 1 / sqrt(3)
     std::array<ShapePoint<modes>, points> table{};
     for (int q = 0; q < points; ++q) {
-      const double x = g * hexahedron_signs[q][0], y = g * hexahedron_signs[q][1], z = g * hexahedron_signs[q][2];
+      const double x = place(q, 0), y = place(q, 1), z = place(q, 2);
       table[q].derivative = {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {0, z, y}, {z, 0, x}, {y, x, 0}, {y * z, x * z, x * y}}};
       table[q].weight = 1.0;
     }
@@ -48,11 +68,21 @@ struct HexahedronShape {
   }
 };
 
+using HexahedronShape = BrickShape<true>;
+using PlainHexahedronShape = BrickShape<false>;
+
+/// The brick with incompatible modes (full_solid_kernel.hpp).
+struct IncompatibleBrickShape : PlainHexahedronShape {
+  static constexpr bool bubbles = true;
+};
+
 /// Linear wedge, h = {xi, eta, zeta, xi zeta, eta zeta} on the triangle xi, eta >= 0, xi + eta <= 1, -1 <= zeta <= 1.
 /// Three points on the triangle by two along the axis: with one on the triangle a twist about the axis through it would
 /// cost no energy.
 struct WedgeShape {
   static constexpr int nodes = 6, modes = 5, points = 6;
+  static constexpr bool natural_modes = true, mean_dilatation = true, explicit_steps = true;
+  static constexpr auto mass_share = equal_shares<nodes>();
 
   static constexpr std::array<ShapePoint<modes>, points> quadrature() {
     constexpr double g = 0.57735026918962576451;

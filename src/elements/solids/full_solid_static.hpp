@@ -13,8 +13,8 @@ template <class Shape>
 bool FullSolid<Shape>::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                                  std::span<double> new_history, std::span<double> force,
                                  std::span<double> stiffness) const {
-  constexpr int dofs = 3 * Shape::nodes;
-  using Derivative = Dual<dofs>;
+  if constexpr (has_bubbles<Shape>)
+    return linearize_with_bubbles(element, motion, old_history, new_history, force, stiffness);
   const LaneReference record = reference(element);
   const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), record);
   for (const double jacobian : k.jacobian)
@@ -23,15 +23,27 @@ bool FullSolid<Shape>::linearize(std::int32_t element, const NodalMotion& motion
   new_history[0] = k.mean_jacobian;
 
   Tensors<double> stress;
-  std::array<std::array<double, 81>, Shape::points> tangent;
+  Tangents tangent;
   for (int q = 0; q < Shape::points; ++q)
     material_.law->tangent(k.modified[q].component, quasi_static, law_history(new_history, q), stress[q].component,
                            stiffness.empty() ? std::span<double>() : tangent[q]);
-  if (stiffness.empty()) {
-    const auto forces = Shape::nodal(full_solid_conjugates<Shape>(k, stress, 0.0, record));
-    for (int i = 0; i < dofs; ++i) force[i] = forces[i / 3][i % 3];
-    return true;
-  }
+  const auto nodal = Shape::nodal(full_solid_conjugates<Shape>(k, stress, 0.0, record));
+  for (int i = 0; i < 3 * Shape::nodes; ++i) force[i] = nodal[i / 3][i % 3];
+  if (stiffness.empty()) return true;
+  if constexpr (Shape::mean_dilatation)
+    stiffness_of_mean(element, motion, stress, tangent, stiffness);
+  else
+    stiffness_of_points(record, tangent, stiffness);
+  return true;
+}
+
+// The mean dilatation couples all points: duals of the whole element carry the chain rule.
+template <class Shape>
+void FullSolid<Shape>::stiffness_of_mean(std::int32_t element, const NodalMotion& motion, const Tensors<double>& stress,
+                                         const Tangents& tangent, std::span<double> stiffness) const {
+  constexpr int dofs = 3 * Shape::nodes;
+  using Derivative = Dual<dofs>;
+  const LaneReference record = reference(element);
   const auto k_dual = full_solid_kinematics<Shape>(coefficients_of<Derivative>(element, motion.position), record);
   Tensors<Derivative> stress_dual;
   for (int q = 0; q < Shape::points; ++q) {
@@ -44,18 +56,50 @@ bool FullSolid<Shape>::linearize(std::int32_t element, const NodalMotion& motion
     }
   }
   const auto forces = Shape::nodal(full_solid_conjugates<Shape>(k_dual, stress_dual, Derivative(0.0), record));
-  for (int i = 0; i < dofs; ++i) {
-    force[i] = forces[i / 3][i % 3].value;
+  for (int i = 0; i < dofs; ++i)
     for (int j = 0; j < dofs; ++j) stiffness[dofs * i + j] = forces[i / 3][i % 3].derivative[j];
+}
+
+/// Gradients of the shape functions by the reference position, at a point.
+template <class Shape>
+std::array<Vector3<double>, Shape::nodes> reference_gradients(int q, const LaneReference& record) {
+  static constexpr auto quadrature = Shape::quadrature();
+  std::array<Vector3<double>, Shape::modes> of_modes{};
+  for (int mode = 0; mode < Shape::modes; ++mode)
+    for (int n = 0; n < 3; ++n)
+      for (int j = 0; j < 3; ++j)
+        of_modes[mode][j] += quadrature[q].derivative[mode][n] * record[FullSolidRecord<Shape>::point(q) + 3 * n + j];
+  return Shape::nodal(of_modes);
+}
+
+// K = sum w grad N_I . dP/dF . grad N_J.
+template <class Shape>
+void FullSolid<Shape>::stiffness_of_points(const LaneReference& record, const Tangents& tangent,
+                                           std::span<double> stiffness) const {
+  constexpr int dofs = 3 * Shape::nodes;
+  std::fill(stiffness.begin(), stiffness.end(), 0.0);
+  for (int q = 0; q < Shape::points; ++q) {
+    const auto gradient = reference_gradients<Shape>(q, record);
+    const double weight = record[Record::point(q) + 9];
+    for (int node = 0; node < Shape::nodes; ++node)
+      for (int k = 0; k < 3; ++k) {
+        std::array<double, 9> slope{};  // of w P by this displacement
+        for (int ij = 0; ij < 9; ++ij)
+          for (int l = 0; l < 3; ++l) slope[ij] += weight * tangent[q][9 * ij + 3 * k + l] * gradient[node][l];
+        for (int row = 0; row < dofs; ++row) {
+          const double* const p = &slope[3 * (row % 3)];
+          const auto& g = gradient[row / 3];
+          stiffness[dofs * row + 3 * node + k] += p[0] * g[0] + p[1] * g[1] + p[2] * g[2];
+        }
+      }
   }
-  return true;
 }
 
 template <class Shape>
 ElementEnergies FullSolid<Shape>::energies(std::int32_t element, const NodalMotion& motion,
                                            std::span<const double> history) const {
   const LaneReference record = reference(element);
-  const auto k = full_solid_kinematics<Shape>(coefficients_of<double>(element, motion.position), record);
+  const auto k = kinematics_of(element, motion, history);
   ElementEnergies energies;
   energies.viscous = history[1];
   for (int q = 0; q < Shape::points; ++q) {

