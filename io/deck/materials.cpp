@@ -77,10 +77,10 @@ const MaterialLaw* of_order(Builder& builder, const Block& block, const std::vec
     if (law->order == order) return law;
     greatest = std::max(greatest, law->order);
   }
+  const std::string& name = variants[0]->variant.empty() ? variants[0]->keyword : variants[0]->variant;
   builder.error(block, block.location,
-                greatest == 0 ? fmt::format("{} has no order; remove N", variants[0]->variant)
-                              : fmt::format("N = {} is not supported; {} takes N = 1 to {}", order,
-                                            variants[0]->variant, greatest));
+                greatest == 0 ? fmt::format("{} has no order; remove N", name)
+                              : fmt::format("N = {} is not supported; {} takes N = 1 to {}", order, name, greatest));
   return nullptr;
 }
 
@@ -96,9 +96,10 @@ const MaterialLaw* chosen_law(Builder& builder, const Block& block) {
       std::ranges::all_of(chosen, [&](const auto* law) { return law->variant == chosen[0]->variant; });
   if (!chosen.empty() && one_variant) return of_order(builder, block, chosen);
   if (chosen.empty()) {
-    for (const auto* law : laws) {
-      if (law->variant.empty() || squeeze(law->variant) == "ISOTROPIC") return law;
-    }
+    std::vector<const MaterialLaw*> unnamed;
+    for (const auto* law : laws)
+      if (law->variant.empty() || squeeze(law->variant) == "ISOTROPIC") unnamed.push_back(law);
+    if (!unnamed.empty()) return of_order(builder, block, unnamed);
     std::vector<std::string> names;
     for (const auto* law : laws)
       if (names.empty() || names.back() != law->variant) names.push_back(law->variant);
@@ -287,10 +288,10 @@ void register_law_keyword(const std::string& keyword) {
   Parameters parameters(rule);
   std::vector<std::string> variants;
   for (const auto* law : laws_of(squeeze(keyword))) {
+    if (law->order > 0) parameters.add(integer("N"));
     if (law->variant.empty()) continue;
     if (std::ranges::find(variants, law->variant) == variants.end()) variants.push_back(law->variant);
     parameters.add(flag(law->variant));
-    if (law->order > 0) parameters.add(integer("N"));
   }
   if (std::ranges::find(variants, "ISOTROPIC") == variants.end()) variants.push_back("ISOTROPIC");
   parameters.add(choice("TYPE", variants));

@@ -55,6 +55,7 @@ std::vector<Subject> subjects() {
       {"yeoh", rubber("yeoh", {0.5, -0.05, 0.01, 0.05, 0.0, 0.0}), 0.5, quasi_static},
       {"polynomial", rubber("polynomial-2", {0.4, 0.1, 0.02, 0.01, -0.005, 0.05, 0.3}), 0.4, quasi_static},
       {"ogden", rubber("ogden-2", {0.8, 2.5, -0.1, -1.5, 0.05, 0.0}), 0.5, quasi_static},
+      {"hyperfoam", rubber("hyperfoam-2", {0.8, 4.5, 0.2, -2.5, 0.1, 0.0}), 0.5, quasi_static},
       {"relaxing-elastic", rubber("elastic", {3.0, 0.45}, {prony()}), 0.02, 5e-3},
       {"relaxing-neo-hooke", rubber("neo-hooke", {0.5, 0.05}, {prony()}), 0.05, 5e-3},
       {"relaxing-ogden", rubber("ogden-1", {1.0, 3.0, 0.05}, {prony()}), 0.05, 5e-3},
