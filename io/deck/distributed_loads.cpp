@@ -110,9 +110,9 @@ void read_distributed(Builder& builder, const Block& block) {
 }
 
 const RegisterKeyword dload{
-    {"DLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_distributed}};
+    {"DLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY")}, read_distributed}};
 const RegisterKeyword dsload{
-    {"DSLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_surface_load}};
+    {"DSLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY")}, read_surface_load}};
 
 }  // namespace
 

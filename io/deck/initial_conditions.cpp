@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
@@ -91,9 +92,41 @@ std::vector<ElementRef> elements_of_line(Builder& builder, const Block& block, R
   return elements;
 }
 
+void mark_stressed(Builder& builder, const std::vector<ElementRef>& elements) {
+  for (const auto element : elements)
+    if (const auto section = builder.model.elements[element.table].section[element.row]; section >= 0)
+      builder.model.sections[section].initially_stressed = true;
+}
+
+/// A line "element, point, components": one of the points of an element, as CalculiX has it.
+void read_stress_of_point(Builder& builder, const Block& block, Row& row, std::map<ElementRef, InitialField>& by_point) {
+  const auto elements = elements_of_line(builder, block, row, "stress");
+  if (elements.empty()) return;
+  const ElementType& type = *builder.model.elements[elements[0].table].type;
+  const int count = stress_components(type.section);
+  const auto point = row.integer(1, "integration point");
+  std::vector<double> values;
+  for (int k = 0; k < count; ++k) values.push_back(row.real_or(2 + k, 0.0, "component of the stress"));
+  if (row.ok() && (point < 1 || point > type.integration_points))
+    row.error(fmt::format("a {} has integration points 1 to {}; correct field 2", type.name, type.integration_points));
+  if (!row.ok()) return;
+  for (const auto element : elements) {
+    InitialField& stress = by_point[element];
+    if (stress.elements.empty()) stress = {.field = "S0", .elements = {element}, .values = {}, .location = row.location()};
+    stress.values.resize(static_cast<std::size_t>(count) * type.integration_points, 0.0);
+    std::ranges::copy(values, stress.values.begin() + count * (point - 1));
+  }
+  mark_stressed(builder, elements);
+}
+
 void read_stresses(Builder& builder, const Block& block) {
+  std::map<ElementRef, InitialField> by_point;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
+    if (row.size() > 1 + initial_stress_size(PointKind::solid)) {
+      read_stress_of_point(builder, block, row, by_point);
+      continue;
+    }
     InitialField stress{.field = "S0", .elements = elements_of_line(builder, block, row, "stress")};
     if (stress.elements.empty()) continue;
     const int count = stress_components(builder.model.elements[stress.elements[0].table].type->section);
@@ -101,11 +134,10 @@ void read_stresses(Builder& builder, const Block& block) {
     row.at_most(1 + count);
     if (!row.ok()) continue;
     stress.location = line.location;
-    for (const auto element : stress.elements)
-      if (const auto section = builder.model.elements[element.table].section[element.row]; section >= 0)
-        builder.model.sections[section].initially_stressed = true;
+    mark_stressed(builder, stress.elements);
     builder.model.initial_fields.push_back(std::move(stress));
   }
+  for (auto& [element, stress] : by_point) builder.model.initial_fields.push_back(std::move(stress));
 }
 
 void read_hardening(Builder& builder, const Block& block) {

@@ -9,11 +9,9 @@ inline Step& current(Builder& builder) {
   return builder.model.steps.back();
 }
 
-/// Row of the amplitude that a block names, -1: it names none; nothing: the amplitude is not defined (told).
-inline std::optional<std::int32_t> amplitude_of(Builder& builder, const Block& block) {
-  if (!block.has("AMPLITUDE")) return -1;
-  return builder.require(builder.amplitudes, block.value("AMPLITUDE"), block, block.location);
-}
+/// Row of the amplitude that a block names, later by its TIME DELAY; -1: it names none; nothing: the amplitude is not defined or
+/// missing (told). (amplitude_delay.cpp)
+std::optional<std::int32_t> amplitude_of(Builder& builder, const Block& block);
 
 /// With VALUE=ABSOLUTE the amplitude gives the magnitude itself.
 inline double scaled(const Builder& builder, std::int32_t amplitude, double magnitude) {

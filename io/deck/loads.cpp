@@ -213,11 +213,11 @@ const RegisterKeyword boundary{
     {"BOUNDARY",
      Phase::history,
      Place::anywhere,
-     {choice("OP", {"MOD", "NEW"}), choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ACCELERATION"}), name("AMPLITUDE"),
+     {choice("OP", {"MOD", "NEW"}), choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ACCELERATION"}), name("AMPLITUDE"), real("TIME DELAY"),
       flag("FIXED")},
      read_boundary}};
 const RegisterKeyword cload{
-    {"CLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE")}, read_concentrated}};
+    {"CLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY")}, read_concentrated}};
 
 }  // namespace
 

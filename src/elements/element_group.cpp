@@ -109,9 +109,12 @@ void ElementGroup::set_initial_fields(const Model& model, std::span<double> hist
     if (law_field_row(field, 0) < 0) continue;
     for (std::int32_t lane = 0; lane < padded_size_; ++lane) {
       if (!std::ranges::binary_search(elements, ElementRef{table_, rows_[lane]})) continue;
-      for (int point = 0; point < integration_points(); ++point)
-        for (std::size_t k = 0; k < values.size(); ++k)
-          history[(law_field_row(field, point) + k) * padded_size_ + lane] = values[k];
+      // More values than a point can have: those of one point after the other.
+      const std::size_t points = integration_points(), count = values.size() > 6 ? values.size() / points : values.size();
+      for (std::size_t point = 0; point < points; ++point)
+        for (std::size_t k = 0; k < count; ++k)
+          history[(law_field_row(field, static_cast<int>(point)) + k) * padded_size_ + lane] =
+              values[values.size() > 6 ? count * point + k : k];
     }
   }
 }
