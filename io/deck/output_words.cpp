@@ -28,7 +28,11 @@ const Words abaqus_only{
     "ELPD",    "PRESS",    "TRIAX",    "DENSITY", "STATUS", "SF",    "SE",      "ER",     "EVF",     "SVAVG",
     "PEVAVG",  "PEEQVAVG", "CNAREA",   "CSTATUS", "CFS",    "ALLCD", "ALLDMD",  "ALLEE",  "ALLJD",   "ALLKL",
     "ALLQB",   "ALLSD",    "ALLVE",    "ALLDC",   "ALLMW",  "ALLPW", "ALLCCDW", "ALLCCE", "ALLCCEN", "ALLCCET",
-    "ALLCCSD", "ALLCCSDN", "ALLCCSDT", "ALLHF",   "ALLIHE", "DMASS", "EFABRIC"};
+    "ALLCCSD", "ALLCCSDN", "ALLCCSDT", "ALLHF",   "ALLIHE", "DMASS", "EFABRIC",  "ALPHA", "ALPHAN",  "CS11",    "CTSHR",
+    "EEQUT",   "IE",       "MISESMAX", "MISESONLY", "PEEQMAX", "PEQC", "PRESSONLY", "PS",   "SALPHA",  "SEE",     "SEP",
+    "SEPE",    "SEQUT",    "SPE",      "SSAVG",   "TE",     "TEEQ",  "TEVOL",    "THE",   "TSHR",    "VE",      "VEEQ",
+    "VS",      "YIELDPOT", "CE",       "CEEQ",    "HSNFTCRT", "SDV", "SDEG",     "ESF1",  "NFORC",   "SP",      "EP",
+    "LEP",     "NEP",      "PEP",      "EMSF",    "SINV",   "GRAV",  "CF",       "RBFOR", "RBANG",   "RBROT"};
 
 }  // namespace
 

@@ -63,6 +63,30 @@ void add_free_faces(Builder& builder, const std::vector<ElementRef>& elements, S
   }
 }
 
+/// Adds the ends of edge E1 .. E4 of a sheet. @return false if the label names none.
+bool add_edge(const Model& model, ElementRef element, std::string_view label, std::vector<std::int32_t>& nodes) {
+  const ElementTable& table = model.elements[element.table];
+  const int count = table.type->nodes, edge = label.size() == 2 && label[0] == 'E' ? label[1] - '1' : -1;
+  const bool sheet = table.type->section == Section::Kind::shell || table.type->section == Section::Kind::membrane;
+  if (!sheet || edge < 0 || edge >= count) return false;
+  for (const int local : {edge, (edge + 1) % count}) nodes.push_back(table.connectivity[element.row * count + local]);
+  return true;
+}
+
+void sort_nodes(std::vector<std::int32_t>& nodes) {
+  std::sort(nodes.begin(), nodes.end());
+  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+}
+
+/// Edges of sheets make a surface of their nodes: what a coupling wants.
+void settle_edges(Builder& builder, const Block& block, Surface& surface) {
+  if (surface.nodes.empty()) return;
+  if (!surface.faces.empty())
+    builder.error(block, block.location, "a surface is made of faces or of edges E1 to E4, not of both; make two of it");
+  surface.kind = Surface::Kind::nodes;
+  sort_nodes(surface.nodes);
+}
+
 void read_element_faces(Builder& builder, const Block& block, Surface& surface) {
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
@@ -74,6 +98,7 @@ void read_element_faces(Builder& builder, const Block& block, Surface& surface) 
       continue;
     }
     for (const auto element : elements) {
+      if (add_edge(builder.model, element, row.name(1), surface.nodes)) continue;
       const ElementType& type = *builder.model.elements[element.table].type;
       const int face = face_of_label(type, row.name(1));
       if (face < 0) {
@@ -81,13 +106,14 @@ void read_element_faces(Builder& builder, const Block& block, Surface& surface) 
                               row.name(1),
                               is_solid(type)       ? fmt::format("it has S1 to S{}", type.faces.size())
                               : type.faces.empty() ? "it has no faces"
-                                                   : "it has SPOS and SNEG"));
+                                                   : "it has SPOS and SNEG, and edges E1 ..."));
         break;
       }
       surface.faces.push_back({element, face});
     }
   }
-  if (surface.faces.empty() && !builder.elements_incomplete && !builder.is_poisoned(block.value("NAME"))) {
+  settle_edges(builder, block, surface);
+  if (surface.faces.empty() && surface.nodes.empty() && !builder.elements_incomplete && !builder.is_poisoned(block.value("NAME"))) {
     builder.error(block, block.location,
                   "the surface has no faces; name element sets that have free faces, or a face label");
   }
@@ -102,9 +128,7 @@ void read_nodes_of_surface(Builder& builder, const Block& block, Surface& surfac
     row.at_most(2);
     if (row.ok()) builder.nodes_of(row.text(0), block, line.location, surface.nodes);
   }
-  auto& nodes = surface.nodes;
-  std::sort(nodes.begin(), nodes.end());
-  nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  sort_nodes(surface.nodes);
 }
 
 Point point_of(Row& row, int first, const char* what) {
