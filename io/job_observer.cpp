@@ -8,6 +8,7 @@
 
 #include "checkpoint.hpp"
 #include "model/diagnostics.hpp"
+#include "print_tables.hpp"
 #include "results_file.hpp"
 #include "results_schedule.hpp"
 #include "signals.hpp"
@@ -60,6 +61,7 @@ struct JobObserver::Implementation {
   bool resuming;
   std::unique_ptr<Status> status;
   ResultsFile results;
+  PrintTables tables;
 
   std::int32_t step = -1;
   const ResultSource* source = nullptr;
@@ -78,21 +80,28 @@ JobObserver::Implementation::Implementation(const Model& the_model, const Commun
       domain(the_domain),
       paths(std::move(job)),
       resuming(restarted),
-      results(model, communicator, paths.results(), paths.xdmf()) {
+      results(model, communicator, paths.results(), paths.xdmf()),
+      tables(model, communicator, domain, paths.tables()) {
   communicator.together([&] {
     if (communicator.is_root()) std::filesystem::create_directories(paths.directory.empty() ? "." : paths.directory);
     status = std::make_unique<Status>(paths.status(), paths.log(), model, restarted, communicator.is_root());
   });
-  if (!restarted) results.create();
+  if (restarted) return;
+  results.create();
+  tables.create();
 }
 
 void JobObserver::Implementation::start(const ResultSource& running, std::int32_t started) {
   step = started;
   source = &running;
   const State& state = running.state();
-  if (resuming) results.resume(state);
+  if (resuming) {
+    results.resume(state);
+    tables.resume(state);
+  }
   resuming = false;
   results.start_step(step, state.total_time);
+  tables.start_step(running, step);
 
   std::vector<std::string> complaints;
   const double duration = current().duration();
@@ -185,6 +194,7 @@ bool JobObserver::Implementation::advance(const ResultSource& running, const Pro
     for (const FieldOutput& output : current().field_outputs) variables.add(output);
   }
   if (!variables.empty()) results.add_frame(plan->frames, variables, running, progress, plan->history);
+  tables.advance(running, progress);
   write_status(running, progress, requests);
   if (flush_now) results.add_history(plan->history);
 
@@ -205,7 +215,7 @@ bool JobObserver::Implementation::advance(const ResultSource& running, const Pro
 
 double JobObserver::Implementation::next_due() const {
   if (!plan) return 0.0;
-  double next = std::min(next_poll, plan->history.next_due());
+  double next = std::min({next_poll, plan->history.next_due(), tables.next_due()});
   for (const Schedule& schedule : plan->fields) next = std::min(next, schedule.next());
   if (plan->status) next = std::min(next, plan->status->next());
   if (plan->checkpoint) next = std::min(next, plan->checkpoint->next());
@@ -247,6 +257,7 @@ double JobObserver::next_due() const { return implementation_->next_due(); }
 void JobObserver::mode_found(const Mode& mode) {
   implementation_->writing_failed = true;
   implementation_->results.add_mode(implementation_->plan->frames, mode);
+  implementation_->tables.add_mode(mode);
   implementation_->writing_failed = false;
 }
 

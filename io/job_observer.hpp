@@ -20,6 +20,7 @@ struct JobPaths {
   std::string xdmf() const { return file(".xdmf"); }
   std::string status() const { return file(".sta"); }
   std::string log() const { return file(".log"); }
+  std::string tables() const { return file(".dat"); }
   std::string checkpoint() const { return file(".ckpt.h5"); }
   std::string control() const { return file(".ctl"); }
 };

@@ -3,10 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cstring>
 #include <map>
 #include <optional>
 
+#include "gather.hpp"
 #include "results_frame.hpp"
 #include "results_index.hpp"
 
@@ -46,14 +46,6 @@ Component split_tensor(const std::string& name) {
   const auto found = std::find(tensor_components.begin(), tensor_components.end(), std::string_view(name).substr(name.size() - 2));
   if (found == tensor_components.end()) return {name, -1};
   return {name.substr(0, name.size() - 2), static_cast<int>(found - tensor_components.begin())};
-}
-
-/// Values of which exactly one rank has the bits and all others zero bits, put together on root.
-void merge_bits(std::vector<double>& values, const Communicator& communicator) {
-  std::vector<std::uint64_t> bits(values.size()), merged(values.size());
-  std::memcpy(bits.data(), values.data(), values.size() * sizeof(double));
-  MPI_Reduce(bits.data(), merged.data(), static_cast<int>(bits.size()), MPI_UINT64_T, MPI_BOR, 0, communicator.handle());
-  std::memcpy(values.data(), merged.data(), values.size() * sizeof(double));
 }
 
 }  // namespace

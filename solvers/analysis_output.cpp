@@ -6,6 +6,7 @@
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
 #include "math/rotation.hpp"
+#include "total_force.hpp"
 
 namespace balocco {
 
@@ -210,6 +211,7 @@ const std::map<std::string_view, NodalVariable> nodal_variables{
     {"VR", {3, angular_velocity}},
     {"AR", {3, angular_acceleration}},
     {"RM", {3, reaction_moment}},
+    {"TF", {3, total_force}},
     {"CPRESS", {1, contact_pressure}},
     {"COPEN", {1, contact_opening}},
     {"CSHEAR", {1, contact_shear}},
@@ -241,6 +243,7 @@ SmallStrainOutput& Analysis::small_strain() const {
 
 void Analysis::element(std::size_t index, std::string_view variable, std::int32_t element, int integration_point,
                        std::span<double> values) const {
+  if (variable == "NFORC") return internal_force(index, element, values);
   const auto& group = *element_groups[index];
   std::vector<double> history(group.history_size());
   group.gather_history(element, current.element_history[index], history);
@@ -248,6 +251,16 @@ void Analysis::element(std::size_t index, std::string_view variable, std::int32_
     small_strain().output(group, variable, element, integration_point, current, history, values);
   else
     group.output(variable, element, integration_point, current.motion(), history, values);
+}
+
+void Analysis::internal_force(std::size_t index, std::int32_t element, std::span<double> force) const {
+  const auto& group = *element_groups[index];
+  std::vector<double> history(group.history_size()), unused(group.history_size());
+  group.gather_history(element, current.element_history[index], history);
+  if (current.linear)
+    small_strain().internal_force(group, element, current, history, force);
+  else
+    group.linearize(element, current.motion(), history, unused, force, {});
 }
 
 void Analysis::add_kinetic_energy_of_rotary_inertia(ExactSum& sum) const {

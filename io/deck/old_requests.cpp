@@ -6,7 +6,7 @@ namespace balocco::deck {
 
 namespace {
 
-/// Requests for printed tables and the old results file: there is no such file here.
+/// Requests for the old results file and for tables that are not printed: there is no such file here.
 KeywordRule old_request(const char* keyword) {
   return {.keyword = keyword,
           .place = Place::anywhere,
@@ -16,12 +16,10 @@ KeywordRule old_request(const char* keyword) {
           .any_parameter = true};
 }
 
-const RegisterKeyword file_format{old_request("FILE FORMAT")}, node_print{old_request("NODE PRINT")},
-    el_print{old_request("EL PRINT")}, node_file{old_request("NODE FILE")}, el_file{old_request("EL FILE")},
+const RegisterKeyword file_format{old_request("FILE FORMAT")}, node_file{old_request("NODE FILE")}, el_file{old_request("EL FILE")},
     monitor{old_request("MONITOR")}, contact_print{old_request("CONTACT PRINT")},
     contact_file{old_request("CONTACT FILE")}, energy_print{old_request("ENERGY PRINT")},
-    energy_file{old_request("ENERGY FILE")}, section_print{old_request("SECTION PRINT")},
-    file_output{old_request("FILE OUTPUT")}, print{old_request("PRINT")}, diagnostics{old_request("DIAGNOSTICS")};
+    energy_file{old_request("ENERGY FILE")}, file_output{old_request("FILE OUTPUT")}, print{old_request("PRINT")}, diagnostics{old_request("DIAGNOSTICS")};
 
 /// Options of *MATERIAL that act where temperatures change, which they do nowhere here.
 KeywordRule thermal(const char* keyword) {

@@ -29,6 +29,7 @@ struct StepDraft {
   std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary
   std::unordered_map<std::int64_t, std::size_t> concentrated_of;  // node * 6 + dof -> row of Step::concentrated_loads
   bool field_replaced = false, history_replaced = false;  // an *OUTPUT of this step took the place of earlier ones
+  std::set<PrintOutput::Kind> prints_replaced;  // kinds of *... PRINT that took the place of those of earlier steps
   enum class Output { none, field, history } output = Output::none;  // what the latest *OUTPUT asked for
   std::size_t first_field = 0;  // row of Step::field_outputs that the latest *OUTPUT, FIELD began
 

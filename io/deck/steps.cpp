@@ -50,6 +50,7 @@ void inherit(Builder& builder, Step& step) {
   step.removed_elements = before.removed_elements;
   step.field_outputs = before.field_outputs;
   step.history_outputs = before.history_outputs;
+  step.print_outputs = before.print_outputs;
   step.checkpoint_frequency = before.checkpoint_frequency;
   step.checkpoint_number_interval = before.checkpoint_number_interval;
   double total = 0.0;
@@ -99,6 +100,9 @@ void begin_step(Builder& builder, const Block& block) {
     draft.nonlinear_geometry = asked;
   }
   draft.perturbation = block.has("PERTURBATION");
+  if (builder.static_perturbation)
+    builder.error(block, block.location,
+                  "it follows a *STATIC step of PERTURBATION, which would have to leave no trace; remove PERTURBATION there");
   draft.maximum_increments = block.integer("INC", 100);
   if (draft.maximum_increments < 1)
     builder.error(block, block.location, "INC must be positive; correct it");
@@ -127,6 +131,15 @@ void end_perturbation(Builder& builder, Step& step) {
   step.history_outputs.clear();
 }
 
+/// About the model as it is defined, a perturbation is a linear step. About a state it would have to leave that as it is.
+void begin_static_perturbation(Builder& builder, const Block& block) {
+  const auto* procedure = std::get_if<StaticProcedure>(&current(builder).procedure);
+  builder.static_perturbation = procedure != nullptr && !procedure->nonlinear_geometry && builder.model.steps.size() == 1;
+  if (builder.static_perturbation) return;
+  builder.error(block, builder.draft.location,
+                "PERTURBATION is supported with *FREQUENCY, and with *STATIC in the first step; remove it (steps without NLGEOM superpose)");
+}
+
 void end_step(Builder& builder, const Block& block) {
   if (!builder.draft.has_procedure && !builder.draft.faulty) {
     builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC, *DYNAMIC, EXPLICIT or *FREQUENCY");
@@ -138,9 +151,7 @@ void end_step(Builder& builder, const Block& block) {
         fmt::format("AMPLITUDE={}: {}; leave it out and give the loads an *AMPLITUDE", builder.draft.amplitude,
                     step.ramps_loads() ? "loads of a static step grow linearly over it" : "loads of an explicit step act at once"));
   }
-  if (builder.draft.perturbation && !step.is_perturbation())
-    builder.error(block, builder.draft.location,
-                  "PERTURBATION is supported with *FREQUENCY; remove it (steps without NLGEOM superpose)");
+  if (builder.draft.perturbation && !step.is_perturbation()) begin_static_perturbation(builder, block);
   if (step.is_perturbation()) end_perturbation(builder, step);
   if (auto* procedure = std::get_if<StaticProcedure>(&step.procedure)) procedure->controls = builder.draft.controls;
   if (!builder.draft.bulk_viscosity) return;

@@ -230,6 +230,28 @@ void Writer::history_output(const HistoryOutput& output) {
   }
 }
 
+void Writer::print_outputs(const Step& step) {
+  bool of_nodes = false, of_elements = false;
+  for (const auto& output : step.print_outputs) {
+    if (output.kind == PrintOutput::Kind::section) {
+      line("*SECTION PRINT, SURFACE={}, NAME={}, FREQUENCY={}", quoted(model_.surfaces[output.set].name), quoted(output.section_name),
+           output.frequency);
+      values(output.variables);
+      continue;
+    }
+    const bool nodes = output.kind == PrintOutput::Kind::nodes;
+    (nodes ? of_nodes : of_elements) = true;
+    std::string text = nodes ? "*NODE PRINT" : "*EL PRINT";
+    if (output.set >= 0)
+      text += nodes ? ", NSET=" + quoted(model_.node_sets[output.set].name) : ", ELSET=" + quoted(model_.element_sets[output.set].name);
+    if (output.totals != PrintOutput::Totals::none) text += output.totals == PrintOutput::Totals::only ? ", TOTALS=ONLY" : ", TOTALS=YES";
+    line("{}, FREQUENCY={}, GLOBAL={}", text, output.frequency, output.global_directions ? "YES" : "NO");
+    values(output.variables);
+  }
+  if (!of_nodes) line("*NODE PRINT, FREQUENCY=0");
+  if (!of_elements) line("*EL PRINT, FREQUENCY=0");
+}
+
 void Writer::checkpoints(std::size_t row) {
   const Step& step = model_.steps[row];
   if (step.checkpoint_frequency) {
@@ -268,6 +290,8 @@ void Writer::step(std::size_t row) {
   if (now.field_outputs.empty()) line("*OUTPUT, FIELD, FREQUENCY=0");
   for (const auto& output : now.history_outputs) history_output(output);
   if (now.history_outputs.empty()) line("*OUTPUT, HISTORY, FREQUENCY=0");
+  const Step* const previous = before(model_, row);
+  if (!now.print_outputs.empty() || (previous != nullptr && !previous->print_outputs.empty())) print_outputs(now);
   line("*END STEP");
 }
 

@@ -66,6 +66,7 @@ class Writer {
   void attachments(const Step& step);
   void field_output(const FieldOutput& output, std::size_t step, std::size_t number);
   void history_output(const HistoryOutput& output);
+  void print_outputs(const Step& step);
   void checkpoints(std::size_t row);
 
   std::int64_t node_id(std::int32_t row) const { return model_.nodes.id[row]; }

@@ -13,7 +13,7 @@ namespace {
 
 /// Strain at which derivatives are sampled: five-point formulas then err by 1e-12 in both truncation and round-off.
 constexpr double sampling_strain = 1e-3;
-constexpr std::size_t most_values = 16;
+constexpr std::size_t most_values = 60;  // forces on 20 nodes
 
 bool is_energy(std::string_view variable) { return variable == "SENER" || variable == "ELSE" || variable == "ELASE"; }
 
@@ -93,6 +93,14 @@ void SmallStrainOutput::output(const ElementGroup& group, std::string_view varia
     group.output(variable, element, point, motion, trial_history, sample);
   };
   expand(group, element, state, history, evaluate, is_energy(variable) ? 2 : 1, values);
+}
+
+void SmallStrainOutput::internal_force(const ElementGroup& group, std::int32_t element, const State& state,
+                                       std::span<const double> history, std::span<double> values) {
+  const auto evaluate = [&](const NodalMotion&, std::span<const double>, std::span<double> sample) {
+    std::ranges::copy(force_, sample.begin());
+  };
+  expand(group, element, state, history, evaluate, 1, values);
 }
 
 ElementEnergies SmallStrainOutput::energies(const ElementGroup& group, std::int32_t element, const State& state,

@@ -19,6 +19,9 @@ class SmallStrainOutput {
   /// As ElementGroup::output. `history` is that of the reference configuration; the relative error is about 1e-11.
   void output(const ElementGroup& group, std::string_view variable, std::int32_t element, int point, const State& state,
               std::span<const double> history, std::span<double> values);
+  /// Internal force, freedoms_per_node() a node.
+  void internal_force(const ElementGroup& group, std::int32_t element, const State& state, std::span<const double> history,
+                      std::span<double> values);
   /// As ElementGroup::energies.
   ElementEnergies energies(const ElementGroup& group, std::int32_t element, const State& state,
                            std::span<const double> history);

@@ -5,10 +5,17 @@ foreach(case elastic rubber loads sheets bars tripod faces)
                    ${CMAKE_CURRENT_BINARY_DIR}/ccx_${case})
   set_tests_properties(ccx_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
 endforeach()
-# Decks of CalculiX's own suite, where a copy lies beside the source tree; skipped elsewhere.
+# Decks of CalculiX's own suite, where a copy lies beside the source tree; skipped elsewhere. CCX.md tells of all of them.
 foreach(case truss beamnldye)
   add_test(NAME ccx_suite_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/ccx_cases.py ${case} $<TARGET_FILE:balocco>
                    ${CMAKE_CURRENT_BINARY_DIR}/ccx_suite_${case} ${CMAKE_SOURCE_DIR}/../shared)
   set_tests_properties(ccx_suite_${case} PROPERTIES LABELS verification TIMEOUT 120 SKIP_RETURN_CODE 77)
+endforeach()
+foreach(deck achteld achtelg beam10p beam20p beam8f beamd3 beamdelay beamhf beamnld beamnlp beampo1 beampo3 beampo6 beamprot beamwrite
+        mass1 resstress1 spring2 spring7)
+  add_test(NAME ccx_suite_${deck}
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/ccx_table.py $<TARGET_FILE:balocco> ${CMAKE_SOURCE_DIR}/../shared
+                   ${CMAKE_CURRENT_BINARY_DIR}/ccx_suite_${deck} --check ${deck})
+  set_tests_properties(ccx_suite_${deck} PROPERTIES LABELS verification TIMEOUT 120 SKIP_RETURN_CODE 77)
 endforeach()

@@ -1,0 +1,116 @@
+// *NODE PRINT *EL PRINT *SECTION PRINT: tables in JOB.dat.
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "deck/output_words.hpp"
+#include "deck/register.hpp"
+#include "deck/text.hpp"
+#include "elements/element_type.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+const Words printed_of_nodes{"U", "V", "A", "RF", "UR", "VR", "RM"};
+const Words printed_of_elements{"S", "E", "ME", "LE", "MISES", "PEEQ", "ENER", "EVOL", "ELSE", "ELKE"};
+const Words printed_of_sections{"SOF", "SOM", "SOAREA"};
+
+/// The first request of a kind in a step takes the place of those of the steps before.
+void replace_earlier(Builder& builder, PrintOutput::Kind kind) {
+  if (!builder.draft.prints_replaced.insert(kind).second) return;
+  std::erase_if(builder.model.steps.back().print_outputs,
+                [&](const PrintOutput& output) { return output.kind == kind; });
+}
+
+/// What the three keywords say alike; nothing where nothing is to be printed.
+std::optional<PrintOutput> begin_print(Builder& builder, const Block& block, PrintOutput::Kind kind) {
+  replace_earlier(builder, kind);
+  PrintOutput output;
+  output.kind = kind;
+  output.frequency = block.integer("FREQUENCY", 1);
+  if (output.frequency < 0) builder.error(block, block.location, "FREQUENCY must not be negative; correct it");
+  if (output.frequency <= 0) return std::nullopt;
+  if (block.value("TOTALS") == "YES") output.totals = PrintOutput::Totals::also;
+  if (block.value("TOTALS") == "ONLY") output.totals = PrintOutput::Totals::only;
+  output.set_name = "ALL";
+  return output;
+}
+
+void read_variables(Builder& builder, const Block& block, const Words& known, PrintOutput& output) {
+  each_variable(builder, block, [&](const std::string& variable, Row& row) {
+    if (!contains(known, variable))
+      return row.error(fmt::format("variable {} cannot be printed{}; known: {}", variable,
+                                   did_you_mean(variable, known), join(known)));
+    add(output.variables, variable);
+  });
+  if (!output.variables.empty()) builder.model.steps.back().print_outputs.push_back(std::move(output));
+}
+
+void read_node_print(Builder& builder, const Block& block) {
+  auto output = begin_print(builder, block, PrintOutput::Kind::nodes);
+  if (!output) return;
+  if (block.has("NSET")) {
+    const auto set = builder.require(builder.node_sets, block.value("NSET"), block, block.location);
+    if (!set) return;
+    output->set = *set;
+    output->set_name = builder.model.node_sets[*set].name;
+  }
+  output->global_directions = block.value("GLOBAL", "NO") == "YES";
+  read_variables(builder, block, printed_of_nodes, *output);
+}
+
+void read_element_print(Builder& builder, const Block& block) {
+  auto output = begin_print(builder, block, PrintOutput::Kind::elements);
+  if (!output) return;
+  if (block.has("ELSET")) {
+    const auto set = builder.require(builder.element_sets, block.value("ELSET"), block, block.location);
+    if (!set) return;
+    output->set = *set;
+    output->set_name = builder.model.element_sets[*set].name;
+  }
+  output->global_directions = block.value("GLOBAL", "NO") == "YES";
+  read_variables(builder, block, printed_of_elements, *output);
+}
+
+/// Forces, moments and area come together, as CalculiX prints them.
+void read_section_print(Builder& builder, const Block& block) {
+  auto output = begin_print(builder, block, PrintOutput::Kind::section);
+  if (!output) return;
+  const auto surface = builder.require(builder.surfaces, block.value("SURFACE"), block, block.location);
+  if (!surface) return;
+  const auto& faces = builder.model.surfaces[*surface].faces;
+  const bool of_solids = !faces.empty() && std::ranges::all_of(faces, [&](const FaceRef& face) {
+    return builder.model.elements[face.element.table].type->section == Section::Kind::solid;
+  });
+  if (!of_solids)
+    return builder.error(
+        block, block.location,
+        fmt::format("surface {} is not made of faces of solids, which are what can be cut; name one that is",
+                    block.value("SURFACE")));
+  output->set = *surface;
+  output->section_name = block.value("NAME");
+  read_variables(builder, block, printed_of_sections, *output);
+}
+
+const ParameterRule totals = choice("TOTALS", {"YES", "NO", "ONLY"}), global = choice("GLOBAL", {"YES", "NO"});
+const RegisterKeyword node_print{{"NODE PRINT",
+                                  Phase::history,
+                                  Place::step,
+                                  {name("NSET"), integer("FREQUENCY"), totals, global, foreign("SUMMARY")},
+                                  read_node_print}};
+const RegisterKeyword section_print{{"SECTION PRINT",
+                                     Phase::history,
+                                     Place::step,
+                                     {required(name("SURFACE")), required(name("NAME")), integer("FREQUENCY")},
+                                     read_section_print}};
+const RegisterKeyword element_print{{"EL PRINT",
+                                     Phase::history,
+                                     Place::step,
+                                     {name("ELSET"), integer("FREQUENCY"), totals, global,
+                                      choice("POSITION", {"INTEGRATION POINTS"}), foreign("SUMMARY")},
+                                     read_element_print}};
+
+}  // namespace
+
+}  // namespace balocco::deck

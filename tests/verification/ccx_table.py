@@ -1,0 +1,103 @@
+"""Every deck of CalculiX's suite, as it is, against its printed results: ccx_table.py PROGRAM SHARED FOLDER [PATTERN] > CCX.md;
+ccx_table.py PROGRAM SHARED FOLDER --check DECK: a test of one.
+
+A deck passes where compare_dat.py of SHARED finds every table within 1e-3 of its largest value. C3D8 is CalculiX's plain 2 x 2 x 2
+brick: to those decks the table adds *SECTION CONTROLS, DILATATION=POINTWISE and says so. Decks whose results stand in a .frd alone,
+of decks that print nothing, cannot be compared.
+"""
+import fnmatch
+import os
+import re
+import subprocess
+import sys
+
+SKIPPED = 77
+CONTROLS = "*SECTION CONTROLS, NAME=PLAIN-BRICK, DILATATION=POINTWISE\n"
+
+
+def with_plain_bricks(text):
+    """The deck with plain bricks in place of C3D8, or None where it has none."""
+    if not re.search(r"TYPE=C3D8\s*(,|$)", text, re.I | re.M):
+        return None
+    text = re.sub(r"^(\*SOLID SECTION\s*,)", r"\1CONTROLS=PLAIN-BRICK,", text, flags=re.I | re.M)
+    first = re.search(r"^\*(NODE|HEADING)", text, re.I | re.M).start()
+    return text[:first] + CONTROLS + text[first:]
+
+
+def run(program, deck, folder, ranks=1):
+    os.makedirs(folder, exist_ok=True)
+    command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), program, "run", deck, "--output", folder]
+    return subprocess.run(command, capture_output=True, text=True, timeout=300, errors="replace")
+
+
+def first_reason(done):
+    """The first error that the program told, without the path of the file; or its last line."""
+    lines = [line for line in (done.stdout + done.stderr).splitlines() if ": error:" in line]
+    if lines:
+        return re.sub(r"^\S*/", "", lines[0])
+    last = [line for line in (done.stdout + done.stderr).splitlines() if "BALOCCO FAILED" in line]
+    return re.sub(r"/\S*/", "", last[-1]) if last else "exit status %d" % done.returncode
+
+
+def compare(shared, table, reference):
+    tool = os.path.join(shared, "tools", "compare_dat.py")
+    done = subprocess.run([sys.executable, tool, table, reference], capture_output=True, text=True)
+    errors = [float(line.rsplit(":", 1)[1]) for line in done.stdout.splitlines() if re.search(r": \d\.\d\de[-+]\d\d$", line)]
+    other = [line for line in done.stdout.splitlines() if not re.search(r": \d\.\d\de[-+]\d\d$", line)]
+    return done.returncode == 0, max(errors, default=0.0), other, done.stdout + done.stderr
+
+
+def judge(program, shared, folder, name):
+    """(passes, what to say of it)."""
+    source = os.path.join(shared, "cases", "ccx", name)
+    text = open(source + ".inp", encoding="latin1").read()
+    plain = with_plain_bricks(text)
+    deck = source + ".inp"
+    if plain is not None:
+        os.makedirs(folder, exist_ok=True)
+        deck = os.path.join(folder, name + ".inp")
+        with open(deck, "w", encoding="latin1") as copy:
+            copy.write(plain)
+    note = " (C3D8 with DILATATION=POINTWISE)" if plain is not None else ""
+    try:
+        done = run(program, deck, folder)
+    except subprocess.TimeoutExpired:
+        return False, "runs longer than 300 s"
+    if done.returncode == 2:
+        return False, "refused: " + first_reason(done)
+    if done.returncode != 0:
+        return False, "fails: " + first_reason(done)
+    table, reference = os.path.join(folder, name + ".dat"), source + ".dat.ref"
+    if not os.path.exists(reference):
+        return False, "runs; its reference is a .frd, which is not compared"
+    if not os.path.exists(table):
+        return False, "runs, but prints nothing"
+    good, worst, other, said = compare(shared, table, reference)
+    if good:
+        return True, "%.1e%s" % (worst, note)
+    return False, "runs; %s%s" % ("; ".join(other[:2]) if other else "largest difference %.1e" % worst, note)
+
+
+def main():
+    program, shared, folder = sys.argv[1:4]
+    if sys.argv[4:5] == ["--check"]:
+        if not os.path.isdir(os.path.join(shared, "cases", "ccx")):
+            print("skipped: no decks in %s" % shared)
+            return SKIPPED
+        passes, what = judge(program, shared, folder, sys.argv[5])
+        print(what)
+        return 0 if passes else 1
+    pattern = sys.argv[4] if len(sys.argv) > 4 else "*"
+    decks = sorted(name[:-4] for name in os.listdir(os.path.join(shared, "cases", "ccx")) if name.endswith(".inp"))
+    rows = [(name,) + judge(program, shared, os.path.join(folder, name), name) for name in decks if fnmatch.fnmatch(name, pattern)]
+    print("# CalculiX's own decks\n")
+    print(__doc__.split("\n\n")[1].strip() + "\n")
+    print("%d of %d pass.\n" % (sum(row[1] for row in rows), len(rows)))
+    print("| deck | passes | largest difference, or why not |\n|---|---|---|")
+    for name, passes, what in rows:
+        print("| %s | %s | %s |" % (name, "yes" if passes else "no", what.replace("|", "/")))
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
