@@ -23,9 +23,7 @@ ExplicitLinkages::ExplicitLinkages(const Analysis& analysis, const Step& step, c
 
 void ExplicitLinkages::add_system(const Analysis& analysis, const Linkage& linkage) {
   auto& system = systems_.emplace_back();
-  std::vector<Point> points;
-  for (const auto node : linkage.nodes) points.push_back(analysis.model.nodes.coordinates[node]);
-  const auto [low, high] = bounding_box(points);
+  const auto [low, high] = bounding_box(analysis.model.nodes.coordinates);
   system.size = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
   for (const auto index : linkage.constraints) {
     const auto& constraint = *analysis.constraints[index];

@@ -27,7 +27,7 @@ void add(Vector6& six, double factor, const Point& direction) {
 /// Systems of more unknowns are solved by a sparse factorisation.
 constexpr int largest_dense = 60;
 constexpr int most_iterations = 8;
-/// Relative to the size of the linkage: what iterations must not leave.
+/// Relative to the size of the model: what iterations must not leave.
 constexpr double largest_gap = 1e-3;
 
 }  // namespace

@@ -97,7 +97,7 @@ class ExplicitLinkages {
     std::vector<std::pair<std::int32_t, int>> mover_of_column;
     int rows = 0, unknowns = 0;  // multipliers; these, and velocities of massless directions
     bool is_linear = true;       // the gradient is the same everywhere
-    double size = 0.0;           // diagonal of the box around its nodes
+    double size = 0.0;           // diagonal of the box around the model, which its positions are as exact as
     double average = 0.0;        // increment of the last motion
     std::vector<double> matrix;  // unknowns x unknowns, of small ones
     PivotingSolver factors;

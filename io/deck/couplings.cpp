@@ -23,12 +23,12 @@ std::map<std::int32_t, double> nodes_with_areas(const Model& model, const Surfac
   for (const auto node : surface.nodes) share[node] = 1.0;
   for (const auto& face : surface.faces) {
     const auto& table = model.elements[face.element.table];
-    const auto& corners = table.type->faces[face.face];
     std::vector<std::int32_t> nodes;
-    for (const int corner : corners) nodes.push_back(table.connectivity[face.element.row * table.type->nodes + corner]);
-    const auto at = [&](std::size_t i) { return model.nodes.coordinates[nodes[i % nodes.size()]]; };
+    for (const int corner : nodes_of_face(*table.type, face.face)) nodes.push_back(table.connectivity[face.element.row * table.type->nodes + corner]);
+    const auto at = [&](std::size_t i) { return model.nodes.coordinates[nodes[i]]; };
+    const std::size_t corners = nodes.size() > 4 ? nodes.size() / 2 : nodes.size();  // they come first
     Point area{};  // twice the vector area
-    for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
+    for (std::size_t i = 1; i + 1 < corners; ++i) {
       const auto piece = cross(subtract(at(i), at(0)), subtract(at(i + 1), at(0)));
       for (int c = 0; c < 3; ++c) area[c] += piece[c];
     }

@@ -10,6 +10,7 @@
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
 #include "deck/register.hpp"
+#include "deck/text.hpp"
 
 namespace balocco::deck {
 
@@ -33,8 +34,8 @@ struct Layer {
 
 std::vector<Layer> read_layers(Builder& builder, const Block& block) {
   std::vector<Layer> layers;
-  for (std::size_t i = 1; i < block.lines.size(); ++i) {
-    Row row(builder, block, block.lines[i]);
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
     for (int field = 0; field < row.size(); ++field) {
       if (!row.has(field)) continue;
       const auto surface = builder.require(builder.surfaces, row.name(field), block, row.location());
@@ -48,7 +49,7 @@ std::vector<Layer> read_layers(Builder& builder, const Block& block) {
     }
   }
   if (layers.size() < 2)
-    builder.error(block, block.location, "a weld joins at least two surfaces; name them on the lines behind the first one, which says the direction or is empty");
+    builder.error(block, block.location, "a weld joins at least two surfaces; name them on data lines");
   return layers.size() < 2 ? std::vector<Layer>{} : std::move(layers);
 }
 
@@ -93,7 +94,8 @@ void read_fastener(Builder& builder, const Block& block) {
   }
   std::vector<std::int32_t> references;
   if (!builder.nodes_of(block.value("REFERENCE NODE SET"), block, block.location, references)) return;
-  if (!block.lines.empty() && Row(builder, block, block.lines[0]).has(0))
+  // An empty first line leaves the direction of the projection to the faces; empty lines are no lines here.
+  if (!block.lines.empty() && parse_real(Row(builder, block, block.lines[0]).text(0)))
     return builder.error(block, block.lines[0].location, "welds are projected along the normals of the faces; leave the line of the direction empty");
   const auto layers = read_layers(builder, block);
   if (layers.empty()) return;

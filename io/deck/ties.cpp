@@ -19,7 +19,7 @@ std::vector<std::int32_t> nodes_of_surface(const Model& model, const Surface& su
   std::vector<std::int32_t> rows = surface.nodes;
   for (const auto& face : surface.faces) {
     const auto& table = model.elements[face.element.table];
-    for (const int corner : table.type->faces[face.face]) rows.push_back(table.connectivity[face.element.row * table.type->nodes + corner]);
+    for (const int corner : nodes_of_face(*table.type, face.face)) rows.push_back(table.connectivity[face.element.row * table.type->nodes + corner]);
   }
   std::ranges::sort(rows);
   rows.erase(std::unique(rows.begin(), rows.end()), rows.end());

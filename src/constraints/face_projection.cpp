@@ -76,7 +76,7 @@ FaceProjection::FaceProjection(const Model& model, const Surface& surface) : mod
   for (const auto& reference : surface.faces) {
     const auto& table = model.elements[reference.element.table];
     Face face;
-    for (const int corner : table.type->faces[reference.face])
+    for (const int corner : nodes_of_face(*table.type, reference.face))
       face.nodes.push_back(table.connectivity[static_cast<std::size_t>(reference.element.row) * table.type->nodes + corner]);
     face.low = face.high = model.nodes.coordinates[face.nodes.front()];
     const std::size_t corners = is_triangle(face.nodes.size()) ? 3 : 4;
