@@ -100,9 +100,9 @@ double full_solid(const Law& law) {
   const auto k = full_solid_kinematics<Shape>(c, reference);
   std::array<Matrix3<Counted>, Shape::points> stress;
   Shape::nodal(full_solid_conjugates<Shape>(k, stress, Counted(0.0), reference));
-  FullSolidBound<Counted> bound;
+  FullSolidBound<Counted> bound{Counted(0.0)};
   for (int q = 0; q < Shape::points; ++q)
-    bound.add_point(k.modified[q], stress[q], TangentBound<Counted>{1.0, 1.0}, k.scale[q], Counted(1.0), Counted(0.1));
+    bound.add_point(k.modified[q], InitialStress<Counted>(k.modified[q], stress[q]), TangentBound<Counted>{1.0, 1.0}, k.scale[q], Counted(1.0), Counted(0.1));
   bound.volumetric();
   Shape::nodal(full_solid_conjugates<Shape>(k, stress, Counted(1.0), reference));
   const long kernel = count;
