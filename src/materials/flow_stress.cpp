@@ -56,6 +56,14 @@ PiecewiseCurve PiecewiseCurve::from_rows(const std::vector<std::vector<double>>&
   return curve;
 }
 
+double FlowStress::least() const {
+  double stress = static_curve(0.0).value;
+  if (hardening == Hardening::table)
+    for (const auto& piece : curves[0].pieces) stress = std::min(stress, static_curve(piece.start + piece.width).value);
+  if (hardening == Hardening::saturation) stress = std::min(stress, yield + modulus);
+  return stress;
+}
+
 FlowStress FlowStress::of(const Material& material) {
   FlowStress flow;
   for (const auto& option : material.options) {

@@ -80,6 +80,9 @@ struct FlowStress {
     return {still.value * factor, still.slope * factor + still.value * slope};
   }
 
+  /// The least stress at rate zero, at whatever plastic strain.
+  double least() const;
+
   /// At rate zero.
   template <class V>
   Sloped<V> static_curve(const V& p) const {

@@ -29,14 +29,16 @@ const RegisterElement registered({.name = "C3D8R",
 
 }  // namespace
 
-HourglassFlow HourglassFlow::of(const SolidMaterial& material, const Section& section, int own_history) {
+HourglassFlow HourglassFlow::of(const SolidMaterial& solid, const Material& material, const Section& section, int own_history) {
   HourglassFlow flow;
-  const int strain = field_row(*material.law, "PEEQ");
+  const int strain = field_row(*solid.law, "PEEQ");
   if (strain < 0 || section.hourglass != HourglassControl::enhanced) return flow;
   flow.plastic_strain = own_history + history_size + strain;
-  flow.plastic_deformation = own_history + history_size + field_row(*material.law, "FP");
-  if (const int failure = field_row(*material.law, "FAILED"); failure >= 0) flow.failure = own_history + history_size + failure;
-  const double lame = material.stiffness[1], shear = material.stiffness[21];
+  flow.plastic_deformation = own_history + history_size + field_row(*solid.law, "FP");
+  if (const int failure = field_row(*solid.law, "FAILED"); failure >= 0) flow.failure = own_history + history_size + failure;
+  const double lame = solid.stiffness[1], shear = solid.stiffness[21];
+  flow.yield = FlowStress::of(material);
+  flow.least_yield = flow.yield.least();
   flow.shear = shear;
   flow.twice_shear = section.hourglass_scale * 2.0 * shear;
   flow.plane_ratio = lame / (lame + 2.0 * shear);
@@ -48,7 +50,8 @@ ReducedBrick::ReducedBrick(const GroupInput& input)
     : ElementGroup(input),
       material_(SolidMaterial::of_section(input.model, input.model.sections.at(input.section))),
       enhanced_(input.model.sections[input.section].hourglass == HourglassControl::enhanced),
-      flow_(HourglassFlow::of(material_, input.model.sections[input.section], own_history)),
+      flow_(HourglassFlow::of(material_, input.model.materials[input.model.sections[input.section].material],
+                              input.model.sections[input.section], own_history)),
       law_row_(flow_.active() ? own_history + HourglassFlow::history_size : own_history),
       records_(static_cast<std::size_t>(padded_size_) * brick_record::size) {
   const Section& section = input.model.sections[input.section];
@@ -130,17 +133,21 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
   std::array<Vector3<Pack>, 4> q = hourglass_vectors(c, f, shape);
   if constexpr (hourglass == Hourglass::flowing) {
-    const Pack factor = flow_factor(stress, f, component(flow_.plastic_strain) - plastic_strain, flow_.shear);
+    const HourglassTrial<Pack> trial(c, q, shape);
+    const Pack new_strain = component(flow_.plastic_strain);
+    const Pack factor = flow_factor(CentreStress<Pack>(stress, f), Pack(new_strain - plastic_strain), new_strain, c, trial.stress,
+                                    trial.energy, volume, flow_);
     const auto change = shape_change(factor, q, invariant);
     q = flowed(factor, q);
-    const auto advance = [&](int k, const Pack& by) {
-      Pack(component(own_history + k) + by).copy_to(&history[(own_history + k) * padded_size_ + element], std::experimental::element_aligned);
+    const auto put = [&](int k, const Pack& value) {
+      value.copy_to(&history[(own_history + k) * padded_size_ + element], std::experimental::element_aligned);
     };
-    for (int k = 0; k < 12; ++k) advance(k, change[k]);
-    const auto strain = hourglass_strains(c, q);
-    advance(12, flow_dissipation(factor, strain, shape));
-    if (flow_.failure >= 0)  // what fails gives up its elastic energy
-      advance(12, select(component(flow_.failure) > 0.0, hourglass_energy(strain, shape), Pack(0.0)));
+    for (int k = 0; k < 12; ++k) put(k, component(own_history + k) + change[k]);
+    const Pack kept = factor * factor * trial.energy;
+    Pack lost = flow_dissipation(factor, trial.energy, component(own_history + 13));
+    if (flow_.failure >= 0) lost += select(component(flow_.failure) > 0.0, kept, Pack(0.0));  // what fails gives up its elastic energy
+    put(12, component(own_history + 12) + lost);
+    put(13, kept);
   }
   const Pack rate = volume_rate(invariant.jacobian, old_jacobian, inverse_increment);
   const Pack mean_stress = viscosity.stress(length, rate);

@@ -79,6 +79,15 @@ class ReducedBrick final : public ElementGroup {
   void advance_shape(const HexahedronCoefficients<double>& c, const Matrix3<double>& f, const Matrix3<double>& stress,
                      double plastic, const LaneReference& reference, std::span<const double> old_history,
                      std::span<double> history) const;
+  /// flow_factor() of hourglass vectors before their flow.
+  template <class T>
+  T factor_of(const HexahedronCoefficients<T>& c, const std::array<Vector3<T>, 4>& trial, const Matrix3<T>& f,
+              const Matrix3<T>& stress, const T& plastic, const FlowedReference<double, LaneReference>& shape,
+              std::span<const double> old_history) const {
+    const HourglassTrial<T> of_trial(c, trial, shape);
+    return flow_factor(CentreStress<T>(stress, f), plastic, T(old_history[flow_.plastic_strain] + plastic), c, of_trial.stress,
+                       of_trial.energy, T(shape[brick_record::volume]), flow_);
+  }
   FlowedReference<double, LaneReference> flowed_reference(const LaneReference& reference, std::span<const double> history) const {
     return {reference, flow_, own_history, [&](int k) { return history[k]; }};
   }

@@ -1,41 +1,114 @@
-// How the hourglass stresses of C3D8R flow with a metal: else they stay elastic where the centre yields, and hold back what ought
-// to change its shape freely. Only HOURGLASS=ENHANCED groups whose material has *PLASTIC pay for it.
+// How the hourglass stresses of C3D8R flow in a metal: else they stay elastic where the element yields, and hold back what ought to
+// change its shape freely. Only HOURGLASS=ENHANCED groups whose material has *PLASTIC pay for it.
 //
 // The stress-free shape of an element changes: hourglass vectors become q_a = c_(3+a) - F (C_(3+a) + Q_a) with Q_a, referred to the
-// material, part of the history. Linearised about the centre, the radial return of J2 flow scales the deviator of every point as it
-// does the centre's, by r: q_a = r q_a(trial), Q_a += (1 - r) F^-1 q_a(trial). Affine flow, however large, strains no hourglass mode
-// so, and its moduli are those of the shape that flow alone has given to the element, Fp (C_1, C_2, C_3).
+// material, part of the history: q_a = r q_a(trial), Q_a += (1 - r) F^-1 q_a(trial). Hourglass stresses are returned to the yield
+// surface at eight points, xi, eta, zeta = +- 2/3, where a layer under a linear stress gives the plastic moment of its thickness, 3/2
+// of that at first yield: so they yield in bending, in which the centre is at rest, at the point that yields first. Where the centre flows, the return of both
+// together lets them fade across the direction of its flow as the deviators of all points do, by s = mises / trial mises of the
+// centre, and along it vanish. That would leave what flows wholly no resistance to hourglass motion: there r is at least 1 - 2 (1 - s).
+// Affine flow, however large, strains no hourglass mode so, and its moduli are those of the shape that flow alone has given to the
+// element, Fp (C_1, C_2, C_3).
 #pragma once
 
 #include <array>
 #include <limits>
 
 #include "elements/solids/reduced_brick_kernel.hpp"
+#include "materials/flow_stress.hpp"
 #include "materials/stretch.hpp"
+#include "math/symmetric_tensor.hpp"
 
 namespace balocco {
 
 /// What a group needs to know of its metal. Rows are those of an element's history.
 struct HourglassFlow {
-  static constexpr int history_size = 13;  // Q_1 .. Q_4, then the energy dissipated per element
+  static constexpr int history_size = 14;  // Q_1 .. Q_4, the energy dissipated per element, and the elastic one
   int plastic_strain = -1;                 // PEEQ; -1: nothing yields
   int plastic_deformation = -1;            // Fp^-1 - 1
   int failure = -1;                        // FAILED; -1: nothing fails
   double shear = 0.0;                      // modulus G of the centre's return
+  FlowStress yield;
+  double least_yield = 0.0;                // of all plastic strains
   double twice_shear = 0.0, plane_ratio = 0.0, young = 0.0;  // 2 G, nu / (1 - nu) and E of the hourglass, with its scale
 
-  static HourglassFlow of(const SolidMaterial& material, const Section& section, int own_history);
+  static HourglassFlow of(const SolidMaterial& solid, const Material& material, const Section& section, int own_history);
   bool active() const { return plastic_strain >= 0; }
 };
 
-/// r = mises / (mises + 3 G dp): what is left of a trial deviator after the plastic strain `dp`, from the new P and F.
+/// Kirchhoff's stress of the centre.
 template <class T>
-T flow_factor(const Matrix3<T>& piola, const Matrix3<T>& f, const T& dp, double shear) {
-  const Matrix3<T> kirchhoff = piola * transpose(f);
-  const T trace = kirchhoff(0, 0) + kirchhoff(1, 1) + kirchhoff(2, 2);
-  const T square = maximum(double_contraction(kirchhoff, kirchhoff) - (1.0 / 3.0) * (trace * trace), T(0.0));
-  const T mises = square_root(1.5 * square + std::numeric_limits<double>::min());
-  return mises / (mises + (3.0 * shear) * dp);
+struct CentreStress {
+  SymmetricTensor<T> deviator;
+  T mises;
+
+  CentreStress(const Matrix3<T>& piola, const Matrix3<T>& f) {
+    const auto kirchhoff = symmetric_part(piola * transpose(f));
+    deviator = deviator_of(kirchhoff);
+    mises = square_root(1.5 * double_contraction(deviator, deviator) + std::numeric_limits<double>::min());
+  }
+  static SymmetricTensor<T> deviator_of(const SymmetricTensor<T>& a) { return a.plus_identity((-1.0 / 3.0) * trace(a)); }
+};
+
+/// Deviators of the hourglass stresses at the eight points: z, y, x times the linear ones of the classes zeta, eta, xi, and y z, x z, x y
+/// times those of mode xi eta zeta, where x, y, z = +- 1 stand for +- 2/3.
+template <class T>
+struct HourglassField {
+  std::array<SymmetricTensor<T>, 6> part;
+
+  HourglassField(const HexahedronCoefficients<T>& c, const std::array<T, 12>& stress, const T& volume) {
+    constexpr double place = 2.0 / 3.0;
+    const auto dyad = [&](int a, int b) {
+      const auto component = [&](int i, int j) { return 0.5 * (c[a][i] * c[b][j] + c[b][i] * c[a][j]); };
+      return CentreStress<T>::deviator_of(
+          {{component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(0, 2), component(1, 2)}});
+    };
+    const std::array<SymmetricTensor<T>, 3> along{dyad(0, 0), dyad(1, 1), dyad(2, 2)};
+    const T linear = (3.0 * place) / volume, bilinear = (9.0 * place * place) / volume;
+    constexpr int axes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+    for (int k = 0; k < 3; ++k) {
+      const auto [a, b] = axes[k];
+      part[k] = (linear * stress[3 * k]) * along[a] + (linear * stress[3 * k + 1]) * along[b] +
+                (2.0 * (linear * stress[3 * k + 2])) * dyad(a, b);
+      part[3 + k] = (bilinear * stress[9 + k]) * along[k];
+    }
+  }
+  SymmetricTensor<T> at(double x, double y, double z) const {
+    const std::array<double, 6> sign{z, y, x, y * z, x * z, x * y};
+    SymmetricTensor<T> sum = T(sign[0]) * part[0];
+    for (int k = 1; k < 6; ++k) sum = sum + T(sign[k]) * part[k];
+    return sum;
+  }
+};
+
+/// What is left of the trial hourglass stresses, 0 <= r <= 1, after the plastic strain of the centre has grown by `dp` to
+/// `plastic_strain`. `energy`: of the trial stresses.
+template <class T>
+T flow_factor(const CentreStress<T>& centre, const T& dp, const T& plastic_strain, const HexahedronCoefficients<T>& c,
+              const std::array<T, 12>& stress, const T& energy, const T& volume, const HourglassFlow& flow) {
+  const T trial = centre.mises + (3.0 * flow.shear) * dp;
+  // Six patterns, of each of which mises^2 <= 4 E energy / volume at the points.
+  const T reach = square_root((24.0 * flow.young) * energy / volume + std::numeric_limits<double>::min());
+  if (!any(value_of(trial + reach) > flow.least_yield)) return T(1.0);
+
+  const auto curve = flow.yield.static_curve(value_of(plastic_strain));
+  const T limit = maximum(centre.mises, T(curve.value) + T(curve.slope) * (plastic_strain - T(value_of(plastic_strain))));
+  const SymmetricTensor<T> of_centre = (trial / centre.mises) * centre.deviator;
+  const HourglassField<T> field(c, stress, volume);
+  constexpr double least = std::numeric_limits<double>::min();
+  const auto excess = [&](const T& square) { return maximum(1.0 - limit / square_root(maximum(1.5 * square, T(least))), T(0.0)); };
+  T lost = T(0.0), whole = T(least), largest = T(0.0);
+  for (const double x : {-1.0, 1.0})
+    for (const double y : {-1.0, 1.0})
+      for (const double z : {-1.0, 1.0}) {
+        const auto h = field.at(x, y, z);
+        const T square = double_contraction(h, h), shared = double_contraction(h, of_centre);
+        lost = lost + excess((1.0 / 1.5) * (trial * trial) + square + 2.0 * shared) * (square + shared);
+        whole = whole + square;
+        largest = maximum(largest, square);
+      }
+  const T fading = 1.0 - 2.0 * (1.0 - centre.mises / trial), alone = 1.0 - excess(largest);
+  return maximum(maximum(1.0 - lost / whole, -maximum(-fading, -alone)), T(0.0));
 }
 
 /// The record of an element that has flowed: map and stiffness (reduced_brick_reference.hpp) are of its new shape. `Real` is Pack or
@@ -106,16 +179,30 @@ struct FlowedReference {
   }
 };
 
+/// Stresses and energy of hourglass vectors before their flow.
+template <class T>
+struct HourglassTrial {
+  std::array<T, 12> stress;
+  T energy = T(0.0);
+
+  HourglassTrial(const HexahedronCoefficients<T>& c, const std::array<Vector3<T>, 4>& q, const auto& reference) {
+    const auto strain = hourglass_strains(c, q);
+    stress = hourglass_stresses(strain, reference);
+    for (int k = 0; k < 12; ++k) energy = energy + 0.5 * strain[k] * stress[k];
+  }
+};
+
 /// Hourglass vectors after flow.
 template <class T>
 std::array<Vector3<T>, 4> flowed(const T& factor, const std::array<Vector3<T>, 4>& trial) {
   return {factor * trial[0], factor * trial[1], factor * trial[2], factor * trial[3]};
 }
 
-/// What the flow by (1 - r) of the trial strain, `strain` / r, dissipates against the stress it leaves.
+/// What the flow by (1 - r) of the trial strain dissipates against the mean of the stresses before and after the increment, those
+/// before taken to be in proportion: (1 - r) (r + s) energy with s^2 = old / trial energy.
 template <class T>
-T flow_dissipation(const T& factor, const std::array<T, 12>& strain, const auto& reference) {
-  return 2.0 * (1.0 - factor) * hourglass_energy(strain, reference) / maximum(factor, T(std::numeric_limits<double>::min()));
+T flow_dissipation(const T& factor, const T& trial_energy, const T& old_energy) {
+  return (1.0 - factor) * (factor * trial_energy + square_root(maximum(old_energy * trial_energy, T(0.0))));
 }
 
 /// Changes of Q by (1 - r) F^-1 q(trial), from the invariants of F.
