@@ -12,6 +12,20 @@ import subprocess
 import sys
 
 SKIPPED = 77
+# Why decks that run do not pass.
+NOTES = {
+    "beamf2": "CalculiX counts the stress of the linear step before as a preload of the modes; here, as in Abaqus, steps without NLGEOM "
+              "leave none",
+    "beamnh": "CalculiX stops 2.0e-3 away from its own converged answer (tolerances of 1e-7), from which this one differs by 5.7e-5",
+    "beampd": "uniaxial stress at this strain is 988.2 by the law's closed form, as here; CalculiX's one increment gives 993.0; the "
+              "second step takes four increments, each of them printed",
+    "beampiso": "the elongation is 0.23323 by the law's closed form, as here; CalculiX's is 0.2275 in one increment, 0.2300 in a hundred",
+    "beampisof": "modes about the state of beampiso",
+    "beamnldye": "explicit: other increments, each of them printed; ccx_cases.py compares the motion",
+    "beamnldype": "explicit: other increments, each of them printed",
+    "resstress1": "linear steps here have the stress stiffness of an initial stress, CalculiX's have not",
+    "truss": "CalculiX makes a solid of a bar and prints its points; ccx_cases.py compares the stress",
+}
 CONTROLS = "*SECTION CONTROLS, NAME=PLAIN-BRICK, DILATATION=POINTWISE\n"
 
 
@@ -75,7 +89,8 @@ def judge(program, shared, folder, name):
     good, worst, other, said = compare(shared, table, reference)
     if good:
         return True, "%.1e%s" % (worst, note)
-    return False, "runs; %s%s" % ("; ".join(other[:2]) if other else "largest difference %.1e" % worst, note)
+    what = "; ".join(other[:1]) if other else "largest difference %.1e" % worst
+    return False, "runs; %s%s%s" % (what, note, ": " + NOTES[name] if name in NOTES else "")
 
 
 def main():

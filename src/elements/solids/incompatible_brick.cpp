@@ -18,7 +18,7 @@ const RegisterElement registered({.name = "C3D8I",
                                   .integration_points = IncompatibleBrickShape::points,
                                   .section = Section::Kind::solid,
                                   .faces = hexahedron_faces(),
-                                  .cycle_cost = 1000,
+                                  .cycle_cost = 1300,
                                   .make_group = make_group});
 
 }  // namespace

@@ -17,7 +17,7 @@ const RegisterElement registered({.name = "C3D10",
                                   .section = Section::Kind::solid,
                                   .faces = tetrahedron_faces(),
                                   .face_midsides = midsides(tetrahedron_faces(), tetrahedron_edges, 4),
-                                  .cycle_cost = 400,
+                                  .cycle_cost = 600,
                                   .make_group = make_group,
                                   .shape_products = shape_products<QuadraticTetrahedronShape>});
 
