@@ -6,7 +6,7 @@ foreach(case elastic rubber loads sheets bars tripod faces)
   set_tests_properties(ccx_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
 endforeach()
 # Decks of CalculiX's own suite, where a copy lies beside the source tree; skipped elsewhere. CCX.md tells of all of them.
-foreach(case truss beamnldye)
+foreach(case truss beamnldye beamnldype)
   add_test(NAME ccx_suite_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/ccx_cases.py ${case} $<TARGET_FILE:balocco>
                    ${CMAKE_CURRENT_BINARY_DIR}/ccx_suite_${case} ${CMAKE_SOURCE_DIR}/../shared)

@@ -14,6 +14,7 @@ import sys
 
 import numpy as np
 
+from ccx_table import with_plain_bricks
 from static_model import Results, close
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -121,21 +122,29 @@ def truss(program, shared, folder):
         close(0.5 * sign * axial[element - 1], theirs[4], 1e-5, "and in the global xz")
 
 
-def beamnldye(program, shared, folder):
-    """A cantilever of 32 C3D8 under sudden pressure, explicit. ccx integrates fully without volumetric averaging and with other
-    increments (its own versions differ as much): the motion of the tip within 3 % of its largest."""
-    deck = os.path.join(shared, "beamnldye.inp")
-    reference, time = [], 0.0
-    for line in open(deck[:-4] + ".dat.ref"):
-        if "displacements" in line:
-            time = float(line.split()[-1])
-        elif line.split()[:1] == ["100"]:
-            reference.append((time, float(line.split()[3])))
-    reference = np.array(reference)
-    results = run(program, deck, folder, 1)
-    ours = np.array([(f.attrs["time"], f["node/U"][results.row[100]][2]) for f in results.frames(1)[1:]])
-    difference = np.abs(ours[:, 1] - np.interp(ours[:, 0], reference[:, 0], reference[:, 1])).max()
-    close(difference / reference[:, 1].max(), 0.0, 0.03, "path of the tip")
+def tip_of_cantilever(name, tolerance):
+    """A cantilever of 32 C3D8 under sudden pressure, explicit: the motion of the tip, within `tolerance` of its largest. CalculiX's
+    C3D8 does not average the dilatation, and locks where steel flows: with the mean the plastic one is 15.7 % off, the elastic 2.1 %.
+    Its increments are others (its own versions differ as much)."""
+
+    def case(program, shared, folder):
+        reference, time = [], 0.0
+        for line in open(os.path.join(shared, name + ".dat.ref")):
+            if "displacements" in line:
+                time = float(line.split()[-1])
+            elif line.split()[:1] == ["100"]:
+                reference.append((time, float(line.split()[3])))
+        reference = np.array(reference)
+        os.makedirs(folder, exist_ok=True)
+        deck = os.path.join(folder, name + ".inp")
+        with open(deck, "w") as copy:
+            copy.write(with_plain_bricks(open(os.path.join(shared, name + ".inp")).read()))
+        results = run(program, deck, folder, 1)
+        ours = np.array([(f.attrs["time"], f["node/U"][results.row[100]][2]) for f in results.frames(1)[1:]])
+        difference = np.abs(ours[:, 1] - np.interp(ours[:, 0], reference[:, 0], reference[:, 1])).max()
+        close(difference / reference[:, 1].max(), 0.0, tolerance, "path of the tip of " + name)
+
+    return case
 
 
 def main():
@@ -146,7 +155,8 @@ def main():
     if not glob.glob(os.path.join(shared, "*.inp")):
         print("skipped: no decks in %s" % shared)
         return SKIPPED
-    return {"truss": truss, "beamnldye": beamnldye}[case](program, shared, folder)
+    cases = {"truss": truss, "beamnldye": tip_of_cantilever("beamnldye", 5e-3), "beamnldype": tip_of_cantilever("beamnldype", 1e-3)}
+    return cases[case](program, shared, folder)
 
 
 if __name__ == "__main__":
