@@ -67,6 +67,23 @@ def tables(runner):
         close(last["total internal energy"][0][0], 0.0125, 1e-6, "energy of two elements")
 
 
+def section(runner):
+    """What the top of a pulled block transmits: force, moment, area and centre; on two ranks too."""
+    for kind, top in (("C3D20R", "5, S2\n6, S2\n7, S2\n8, S2"), ("C3D8", "5, S2\n6, S2\n7, S2\n8, S2")):
+        deck = pulled(kind)
+        deck.add("*SURFACE, NAME=CUT\n" + top)
+        deck.add("*STEP\n*STATIC\n*BOUNDARY\n1, 1, 2\n3, 2\nBASE, 3\nTOP, 3, 3, 0.01\n*SECTION PRINT, SURFACE=CUT, NAME=P\nSOF, SOM\n*END STEP")
+        for ranks in (1, 2):
+            runner.run("section_" + kind, deck, ranks)
+            path = os.path.join(runner.folder, "section_%s_%d" % (kind, ranks), "section_%s.dat" % kind)
+            numbers = [rows[0] for _, rows in blocks(path) if rows]
+            wanted = [[0, 0, 10, 5, -5, 0], [0.5, 0.5, 1, 0, 0, 1], [0, 0, 0], [1, 10, 0, 0, 0]]
+            for got, expected in zip(numbers, wanted, strict=True):
+                assert len(got) == len(expected), got
+                for a, b in zip(got, expected):
+                    close(a, b, 1e-6, "%s on %d ranks" % (kind, ranks))
+
+
 def restart(runner):
     """A run that is killed and goes on from its checkpoint leaves the same file as one that is not, to the round-off of statics."""
     deck = pulled("C3D8")
@@ -91,7 +108,7 @@ def restart(runner):
 
 def main():
     case, program, folder = sys.argv[1:4]
-    {"tables": tables, "restart": restart}[case](Runner(program, folder))
+    {"tables": tables, "section": section, "restart": restart}[case](Runner(program, folder))
 
 
 if __name__ == "__main__":
