@@ -20,7 +20,8 @@ BubbleAmplitudes<T> bubble_forces(const Matrix3<T>& centre, const std::array<Mat
     for (int m = 0; m < 3; ++m)
       for (int k = 0; k < 3; ++k)
         for (int j = 0; j < 3; ++j)
-          sum[m][k] = sum[m][k] + (Shape::place(q, m) * reference[FullSolidRecord<Shape>::bubble + 3 * m + j]) * turned(k, j);
+          sum[m][k] =
+              sum[m][k] + (Shape::place(q, m) * reference[FullSolidRecord<Shape>::bubble + 3 * m + j]) * turned(k, j);
   }
   return sum;
 }
@@ -60,51 +61,61 @@ void FullSolid<Shape>::store_flexibility(std::int32_t lane) {
     stiffness += record[Record::point(q) + 9] * columns.transpose() * tangent * columns;
   }
   const Eigen::Matrix<double, 9, 9> flexibility = stiffness.inverse();
-  double* const data = records_.data() + static_cast<std::size_t>(lane / pack_size) * pack_size * Record::size + lane % pack_size;
+  double* const data =
+      records_.data() + static_cast<std::size_t>(lane / pack_size) * pack_size * Record::size + lane % pack_size;
   for (int i = 0; i < 81; ++i) data[pack_size * (Record::bubble_flexibility + i)] = flexibility.data()[i];
 }
 
-// One step of Newton's method with the stiffness of the reference configuration, raised where the moduli have grown, so that it
-// never goes too far: exact for small strains, and else a few cycles behind the motion of the nodes. The law's history stays as it is.
+// One step of Newton's method with the stiffness of the reference configuration, raised where the moduli have grown, so
+// that it never goes too far: exact for small strains, and else a few cycles behind the motion of the nodes. Three
+// steps where a law remembers: metals soften as they flow. The law's history stays as it is.
 template <class Shape>
 void FullSolid<Shape>::settle_bubbles(std::int32_t element, const Coefficients<Pack>& c, double increment,
                                       PointBatch<PointKind::solid>& points, std::span<double> history) const {
   const PackReference reference = pack_reference(element);
-  const auto k = pack_kinematics(element, c, history);
-  for (int q = 0; q < Shape::points; ++q)
-    for (int i = 0; i < 9; ++i) store(k.modified[q].component[i], &points.strain[i][pack_size * q]);
-  const auto row = [&](std::size_t component) {
-    return history.begin() + static_cast<std::ptrdiff_t>(own_history + component) * padded_size_ + element;
-  };
-  for (std::size_t i = 0; i < kept_history_.size(); i += pack_size) std::copy_n(row(i / pack_size), pack_size, kept_history_.begin() + i);
-  respond(element, increment, points, history);
-  for (std::size_t i = 0; i < kept_history_.size(); i += pack_size) std::copy_n(kept_history_.begin() + i, pack_size, row(i / pack_size));
-  Tensors<Pack> stress;
-  for (int q = 0; q < Shape::points; ++q)
-    for (int i = 0; i < 9; ++i) stress[q].component[i] = load(&points.stress[i][pack_size * q]);
-  const auto force = bubble_forces<Shape>(k.centre, stress, reference);
-  const auto c0 = invariants(k.centre);
-  const Pack stretch = largest_eigenvalue_bound(c0.first, c0.second);
-  Pack growth = 1.0;  // of the stiffness
-  for (int q = 0; q < Shape::points; ++q) {
-    growth = maximum(growth, (1.0 / material_.shear_modulus) * (stretch * load(&points.shear_modulus[pack_size * q])));
-    if (material_.volumetric_modulus > 0.0)
-      growth = maximum(growth, (1.0 / material_.volumetric_modulus) * load(&points.volumetric_modulus[pack_size * q]));
-  }
-  const Pack step = 1.0 / growth;
-  for (int a = 0; a < 9; ++a) {
-    double* const amplitude = &history[(first_bubble + a) * static_cast<std::ptrdiff_t>(padded_size_) + element];
-    Pack settled(amplitude, std::experimental::element_aligned);
-    for (int b = 0; b < 9; ++b) settled -= step * (reference[Record::bubble_flexibility + 9 * a + b] * force[b / 3][b % 3]);
-    settled.copy_to(amplitude, std::experimental::element_aligned);
+  const int passes = material_.law->history_size() > 0 ? 3 : 1;
+  for (int pass = 0; pass < passes; ++pass) {
+    const auto k = pack_kinematics(element, c, history);
+    for (int q = 0; q < Shape::points; ++q)
+      for (int i = 0; i < 9; ++i) store(k.modified[q].component[i], &points.strain[i][pack_size * q]);
+    const auto row = [&](std::size_t component) {
+      return history.begin() + static_cast<std::ptrdiff_t>(own_history + component) * padded_size_ + element;
+    };
+    for (std::size_t i = 0; i < kept_history_.size(); i += pack_size)
+      std::copy_n(row(i / pack_size), pack_size, kept_history_.begin() + i);
+    respond(element, increment, points, history);
+    for (std::size_t i = 0; i < kept_history_.size(); i += pack_size)
+      std::copy_n(kept_history_.begin() + i, pack_size, row(i / pack_size));
+    Tensors<Pack> stress;
+    for (int q = 0; q < Shape::points; ++q)
+      for (int i = 0; i < 9; ++i) stress[q].component[i] = load(&points.stress[i][pack_size * q]);
+    const auto force = bubble_forces<Shape>(k.centre, stress, reference);
+    const auto c0 = invariants(k.centre);
+    const Pack stretch = largest_eigenvalue_bound(c0.first, c0.second);
+    Pack growth = 1.0;  // of the stiffness
+    for (int q = 0; q < Shape::points; ++q) {
+      growth =
+          maximum(growth, (1.0 / material_.shear_modulus) * (stretch * load(&points.shear_modulus[pack_size * q])));
+      if (material_.volumetric_modulus > 0.0)
+        growth =
+            maximum(growth, (1.0 / material_.volumetric_modulus) * load(&points.volumetric_modulus[pack_size * q]));
+    }
+    const Pack step = 1.0 / growth;
+    for (int a = 0; a < 9; ++a) {
+      double* const amplitude = &history[(first_bubble + a) * static_cast<std::ptrdiff_t>(padded_size_) + element];
+      Pack settled(amplitude, std::experimental::element_aligned);
+      for (int b = 0; b < 9; ++b)
+        settled -= step * (reference[Record::bubble_flexibility + 9 * a + b] * force[b / 3][b % 3]);
+      settled.copy_to(amplitude, std::experimental::element_aligned);
+    }
   }
 }
 
 // The amplitudes are found by Newton's method to round-off and condensed: K = Kuu - Kua Kaa^-1 Kau.
 template <class Shape>
-bool FullSolid<Shape>::linearize_with_bubbles(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
-                                              std::span<double> new_history, std::span<double> force,
-                                              std::span<double> stiffness) const {
+bool FullSolid<Shape>::linearize_with_bubbles(std::int32_t element, const NodalMotion& motion,
+                                              std::span<const double> old_history, std::span<double> new_history,
+                                              std::span<double> force, std::span<double> stiffness) const {
   constexpr int dofs = 3 * Shape::nodes, most_iterations = 30;
   using Square = Eigen::Matrix<double, 9, 9, Eigen::RowMajor>;
   const LaneReference record = reference(element);
@@ -124,9 +135,11 @@ bool FullSolid<Shape>::linearize_with_bubbles(std::int32_t element, const NodalM
     std::copy(old_history.begin() + own_history, old_history.end(), new_history.begin() + own_history);
     inner.setZero();
     for (int q = 0; q < Shape::points; ++q) {
-      material_.law->tangent(k.modified[q].component, quasi_static, law_history(new_history, q), stress[q].component, tangent[q]);
+      material_.law->tangent(k.modified[q].component, quasi_static, law_history(new_history, q), stress[q].component,
+                             tangent[q]);
       const auto columns = bubble_columns<Shape>(k.centre, q, record);
-      inner += record[Record::point(q) + 9] * columns.transpose() * Eigen::Map<const Square>(tangent[q].data()) * columns;
+      inner +=
+          record[Record::point(q) + 9] * columns.transpose() * Eigen::Map<const Square>(tangent[q].data()) * columns;
     }
     const auto on_bubbles = bubble_forces<Shape>(k.centre, stress, record);
     Eigen::Matrix<double, 9, 1> residual;
@@ -157,7 +170,8 @@ bool FullSolid<Shape>::linearize_with_bubbles(std::int32_t element, const NodalM
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) columns(3 * i + j, 3 * node + i) = whole[j];
     }
-    const Eigen::Matrix<double, dofs, 9> loaded = weight * columns.transpose() * Eigen::Map<const Square>(tangent[q].data());
+    const Eigen::Matrix<double, dofs, 9> loaded =
+        weight * columns.transpose() * Eigen::Map<const Square>(tangent[q].data());
     outer += loaded * columns;
     mixed += loaded * bubble_columns<Shape>(k.centre, q, record);
     for (int m = 0; m < 3; ++m) {  // P : dF0 dH
