@@ -9,6 +9,7 @@
 #include <cstring>
 #include <filesystem>
 #include <functional>
+#include <utility>
 
 #include "elements/element_type.hpp"
 #include "hdf5_file.hpp"
@@ -151,8 +152,8 @@ std::size_t checkpoint_bytes(const Model& model, const Communicator& communicato
 void write_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
                   ElementGroups groups, const State& state) {
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::owned);
-  const auto write = [&](const std::string& name, const RowExchange& exchange, const std::vector<double>& values, int columns) {
-    file.write(file.root(), name, exchange, exchange.to_slab(values, columns), plain_layout(columns));
+  const auto write = [&](const std::string& name, const RowExchange& exchange, std::vector<double> values, int columns) {
+    file.write(file.root(), name, exchange, exchange.to_slab(std::move(values), columns), plain_layout(columns));
   };
   write("position", nodes.exchange, vectors_of(state.position, nodes.nodes), 3);
   write("velocity", nodes.exchange, vectors_of(state.velocity, nodes.nodes), 3);
@@ -164,7 +165,7 @@ void write_tables(ParallelFile& file, const Model& model, const Communicator& co
     work[i * work_values] = done.external;
     work[i * work_values + 1] = done.damping;
   }
-  write("work", nodes.exchange, work, work_values);
+  write("work", nodes.exchange, std::move(work), work_values);
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
     const int columns = history_columns(rows, communicator);
     if (columns > 0) write(history_path(model, rows), rows.exchange, histories_of(rows, state, columns), columns);
@@ -176,7 +177,7 @@ void write_tables(ParallelFile& file, const Model& model, const Communicator& co
       const auto packed = pack(state.contact[pair][point]);
       values.insert(values.end(), packed.begin(), packed.end());
     }
-    write(fmt::format("contact_{}", pair), rows.exchange, values, contact_values);
+    write(fmt::format("contact_{}", pair), rows.exchange, std::move(values), contact_values);
   }
 }
 

@@ -58,6 +58,16 @@ void build_mesh(Builder& builder, const std::vector<Task>& tasks) {
   builder.normalize_sets();
 }
 
+/// Gives back what only a reader needs: the room in which tables grew, and the index of node ids, larger than the coordinates.
+void trim(Model& model) {
+  model.nodes.row_of_id = {};
+  const auto shrink = [](auto&... tables) { (tables.shrink_to_fit(), ...); };
+  shrink(model.nodes.id, model.nodes.coordinates, model.nodes.location);
+  for (auto& table : model.elements) shrink(table.id, table.connectivity, table.section, table.location);
+  for (auto& set : model.node_sets) shrink(set.nodes);
+  for (auto& set : model.element_sets) shrink(set.elements);
+}
+
 void throw_if_wrong(const Diagnostics& diagnostics, const std::vector<std::string>& files) {
   if (diagnostics.number_of_errors() > 0) throw InputError(diagnostics.errors(files));
 }
@@ -105,6 +115,7 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
   throw_if_wrong(diagnostics, tokens.files);
   auto warnings = diagnostics.warnings(tokens.files);
   warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+  trim(builder.model);
   return {std::move(builder.model), std::move(warnings)};
 }
 

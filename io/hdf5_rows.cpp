@@ -88,12 +88,16 @@ RowExchange::RowExchange(const Communicator& communicator, std::int64_t total, s
   for (auto& row : arriving_rows_) row -= slab_begin();
 }
 
-std::vector<double> RowExchange::to_slab(std::span<const double> values, int columns) const {
-  std::vector<double> outgoing(order_.size() * columns), incoming(arriving_rows_.size() * columns);
+// Each copy of the values goes when the next is there: they may be a good part of the model.
+std::vector<double> RowExchange::to_slab(std::vector<double> values, int columns) const {
+  std::vector<double> outgoing(order_.size() * columns);
   for (std::size_t i = 0; i < order_.size(); ++i) {
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(order_[i]) * columns, columns, outgoing.begin() + i * columns);
   }
+  values = {};
+  std::vector<double> incoming(arriving_rows_.size() * columns);
   exchange_rows(outgoing, leaving_, incoming, arriving_, columns, *communicator_);
+  outgoing = {};
   std::vector<double> slab(slab_size() * columns, 0.0);
   for (std::size_t i = 0; i < arriving_rows_.size(); ++i) {
     std::copy_n(incoming.begin() + i * columns, columns, slab.begin() + arriving_rows_[i] * columns);

@@ -24,7 +24,7 @@ class RowExchange {
   std::size_t held() const { return order_.size(); }
 
   /// Values (`columns` a row) of the rows held -> this rank's slab. Rows that nobody holds are zero. Collective.
-  std::vector<double> to_slab(std::span<const double> values, int columns) const;
+  std::vector<double> to_slab(std::vector<double> values, int columns) const;
   /// The slab's values -> values of the rows held; several ranks may hold the same row. Collective.
   std::vector<double> from_slab(std::span<const double> slab, int columns) const;
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "consistent_mass.hpp"
 #include "constraints/rigid_body.hpp"
@@ -18,9 +19,13 @@ namespace balocco {
 
 namespace {
 
-std::vector<std::unique_ptr<ElementGroup>> make_groups(const Model& model, const Domain& domain) {
+/// Groups keep what they need of their inputs, which are as large as the mesh and go one by one.
+std::vector<std::unique_ptr<ElementGroup>> make_groups(const Model& model, std::vector<GroupInput> inputs) {
   std::vector<std::unique_ptr<ElementGroup>> groups;
-  for (const auto& input : domain.groups) groups.push_back(model.elements[input.table].type->make_group(input));
+  for (auto& input : inputs) {
+    groups.push_back(model.elements[input.table].type->make_group(input));
+    input.rows = input.connectivity = {};
+  }
   return groups;
 }
 
@@ -61,7 +66,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
       domain(make_domain(model_, communicator_, partitioner)),
       directions(model_) {
   communicator.together([&] {
-    element_groups = make_groups(model, domain);
+    element_groups = make_groups(model, std::exchange(domain.groups, {}));
     for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair)
       contacts.emplace_back(model, static_cast<std::int32_t>(pair), domain);
   });

@@ -119,7 +119,7 @@ void ExplicitStep::log_balance() {
       const double weight = inverse_lever(node) * inverse_lever(node);
       for (std::size_t c = 0; c < 3; ++c) {
         if (inverse_inertia[node] > 0.0) sums[0] += weight * vector[4 * node + c] * vector[4 * node + c];
-        sums[1] += weight * external[4 * node + c] * external[4 * node + c];
+        if (!external.empty()) sums[1] += weight * external[4 * node + c] * external[4 * node + c];
       }
     }
   };

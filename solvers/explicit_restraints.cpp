@@ -29,17 +29,20 @@ Restraint restraint_of(const ElementGroup& group, std::int32_t element, bool rot
 
 bool restrains(const Restraint& of) { return of.stiffness > 0.0 || of.viscosity > 0.0 || of.force > 0.0; }
 
-/// Sums over all elements that act on displacements, or on rotations, for the first `count` local nodes.
+/// Sums over all elements that act on displacements, or on rotations, for the first `count` local nodes; empty if there are none.
 std::vector<Restraint> summed(const Analysis& analysis, std::int32_t count, bool rotations) {
   const auto for_each_of_kind = [&](auto visit) {
     for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
       if (const auto of = restraint_of(group, element, rotations); restrains(of)) visit(of, group.nodes(element));
     });
   };
+  bool exist = false;
   double largest = 0.0;
   for_each_of_kind([&](const Restraint& of, std::span<const std::int32_t>) {
+    exist = true;
     largest = std::max({largest, of.stiffness, of.viscosity, of.force});
   });
+  if (!analysis.communicator.any(exist)) return {};
   largest = analysis.communicator.maximum(largest);
   std::vector<Restraint> result(static_cast<std::size_t>(count));
   if (largest == 0.0) return result;

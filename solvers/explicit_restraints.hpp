@@ -8,7 +8,8 @@
 
 namespace balocco {
 
-/// What springs and dashpots do to each local node, summed over all elements and ranks, the same bits on every copy.
+/// What springs and dashpots do to each local node, summed over all elements and ranks, the same bits on every copy; empty where the
+/// model has none of the kind.
 struct NodalRestraints {
   std::vector<Restraint> translation;
   std::vector<Restraint> rotation;  // nodes that turn

@@ -76,11 +76,9 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
   force_.assign(4 * (nodes + 1), 0.0);
   for (std::size_t node = 0; node <= nodes; ++node) force_[4 * node + 3] = scale_.rounding_constant[node];
-  external_force_ = force_;
   if (analysis.domain.turning > 0) moment_.assign(force_.size(), 0.0);
   for (std::size_t node = 0; node < scale_.moment_constant.size(); ++node)
     moment_[4 * node + 3] = scale_.moment_constant[node];
-  external_moment_ = moment_;
   const bool damped =
       std::any_of(analysis.nodal_damping.begin(), analysis.nodal_damping.end(), [](double c) { return c > 0.0; });
   if (analysis.communicator.any(damped)) {
@@ -92,6 +90,10 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     refuse_massless_restraints(analysis, step, linkages_);
   });
   find_loaded_nodes();
+  if (has_loads_) {
+    external_force_ = force_;
+    external_moment_ = moment_;
+  }
   halo_.emplace(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::step, has_loads_ ? 2 : 1);
 }
 

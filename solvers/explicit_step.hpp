@@ -116,7 +116,7 @@ class ExplicitStep {
   bool has_loads_ = false;  // of any rank
   std::optional<Halo> halo_;  // of forces, and of external forces where there are loads
 
-  std::vector<double> force_, external_force_, damping_force_;  // 4 a node; damping empty where there is none
+  std::vector<double> force_, external_force_, damping_force_;  // 4 a node; external, damping: empty where there is none
   // Of nodes that turn; moments as long as forces, so that both have the scratch node in one place, or empty:
   std::vector<double> moment_, external_moment_, damping_moment_;
   std::vector<std::int32_t> loaded_nodes_;  // on which external forces may act, sorted

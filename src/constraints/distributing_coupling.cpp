@@ -1,5 +1,6 @@
 #include "constraints/distributing_coupling.hpp"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -23,8 +24,24 @@ DistributingConstraint::DistributingConstraint(const Model& model, const Distrib
     length += weight_[i] * std::sqrt(dot(arm_.back(), arm_.back()));
   }
   if (length > 0.0) lever_ = length;
+  if (std::count(freedoms_.begin() + 3, freedoms_.end(), true) == 3) find_loose_directions();
   offset_ = place(coupling.reference) - center;
   rotates_ = rotates_ || dot(offset_, offset_) > 1e-24 * lever_ * lever_;  // a mean that moves an offset turns it
+}
+
+void DistributingConstraint::find_loose_directions() {
+  Eigen::Matrix3d inertia = Eigen::Matrix3d::Zero();
+  for (std::size_t i = 0; i < weight_.size(); ++i)
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k)
+        inertia(j, k) += weight_[i] * ((j == k ? dot(arm_[i], arm_[i]) : 0.0) - arm_[i][j] * arm_[i][k]);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(inertia);
+  for (int n = 0; n < 3; ++n) {
+    if (solver.eigenvalues()[n] > 1e-9 * lever_ * lever_) continue;
+    const Eigen::Vector3d axis = solver.eigenvectors().col(n);
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) loose_(j, k) += axis[j] * axis[k];
+  }
 }
 
 Vector3<double> DistributingConstraint::mean(std::span<const NodePlace> places) const {
@@ -37,7 +54,7 @@ void DistributingConstraint::gaps(std::span<const NodePlace> places, std::span<d
   const auto center = mean(places);
   const auto& rotation = places[0].rotation;
   const auto apart = places[0].position - center - rotation * offset_;
-  Vector3<double> moment{};
+  Vector3<double> moment = lever_ * (loose_ * places[0].turn);
   for (std::size_t i = 0; i < weight_.size(); ++i)
     moment = moment + (weight_[i] / lever_) * cross(rotation * arm_[i], places[i + 1].position - center);
   std::size_t row = 0;
@@ -63,6 +80,7 @@ void DistributingConstraint::gradient(std::span<const NodePlace> places, std::sp
       for (std::size_t i = 0; i < weight_.size(); ++i) line[6 * (i + 1) + j] = -weight_[i];
       continue;
     }
+    for (int m = 0; m < 3; ++m) line[3 + m] = lever_ * loose_(j, m);
     for (std::size_t i = 0; i < weight_.size(); ++i) {
       const auto arm = (weight_[i] / lever_) * (rotation * arm_[i]), to = places[i + 1].position - center;
       // (spin x arm) x to = arm (spin . to) - spin (arm . to)

@@ -7,7 +7,7 @@
 
 namespace balocco {
 
-/// Its first node is the reference node.
+/// Its first node is the reference node. About the line on which all nodes lie it does not turn: nothing else would hold it.
 class DistributingConstraint : public Constraint {
  public:
   DistributingConstraint(const Model& model, const DistributingCoupling& coupling);
@@ -18,12 +18,14 @@ class DistributingConstraint : public Constraint {
   void add_curvature(std::span<const NodePlace> places, std::span<const double> multipliers, std::span<double> pairs) const override;
 
  private:
+  void find_loose_directions();
   Vector3<double> mean(std::span<const NodePlace> places) const;
 
   std::vector<double> weight_;        // of each node but the first; their sum is 1
   std::vector<Vector3<double>> arm_;  // from the mean to each node at the start
   Vector3<double> offset_{};          // from the mean to the reference node at the start
   std::array<bool, 6> freedoms_{};
+  Matrix3<double> loose_{};           // projects onto directions about which the nodes, on a line or in one place, tell no rotation
   double lever_ = 1.0;                // weighted mean length of the arms: what rows of rotations are divided by
   bool rotates_ = false;
 };
