@@ -6,6 +6,7 @@
 #include <memory>
 
 #include "constraint_report.hpp"
+#include "materials/flow_stress.hpp"
 #include "model/diagnostics.hpp"
 #include "procedures.hpp"
 #include "implicit_linear_solver.hpp"
@@ -123,6 +124,9 @@ Outcome StaticStep::run() {
     observer_.log(system_.has_contact() ? "  contact needs iterations: the step runs as if NLGEOM=YES"
                                         : "  laws that remember, springs with tables or large displacements before need "
                                           "iterations: the step runs as if NLGEOM=YES");
+  for (const auto& material : analysis_.model.materials)
+    if (FlowStress::of(material).depends_on_rate())
+      observer_.log(fmt::format("  note: material {} yields as at rate zero: static steps do not follow strain rates", material.name));
   if (procedure_.stabilize && !follows_geometry())
     observer_.log("  STABILIZE has nothing to stabilise in a linear step");
   if (taken_up_ && procedure_.stabilize) choose_damping_again();

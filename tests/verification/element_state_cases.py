@@ -194,6 +194,15 @@ def torsion(run):
 
 
 
+def rates_in_statics(run):
+    """A static step yields as at rate zero, and says so; without a rate in the material nothing is said."""
+    for rate in ("*RATE DEPENDENT\n40., 5.\n", ""):
+        deck = CUBE.format(kind="C3D8", plastic="*PLASTIC\n2., 0.\n" + rate)
+        job = run(deck + "*STEP, NLGEOM\n*STATIC\n1e-4, 1e-3\n*BOUNDARY\n2, 1, 1, 0.01\n3, 1, 1, 0.01\n6, 1, 1, 0.01\n7, 1, 1, 0.01\n" + FIELD + "*END STEP\n", 1)
+        check("stress", stress_of(job, "C3D8", 1)[0], 2.0, 1e-2)
+        check("note", job.log().count("material M yields as at rate zero"), 1 if rate else 0, 0.0)
+
+
 def plastic_bending(run):
     """Beams of bricks bent to seven times the curvature at first yield: M = sigma b h^2 / 4 (1 - 1 / (3 * 49)). Exact for one layer, whose
     hourglass stresses alone carry it; beside a centre that flows along they are somewhat too stiff, so that hourglass motion is held."""
