@@ -45,7 +45,8 @@ void for_each_contact_point(const Analysis& analysis, Visit visit) {
 }
 
 /// What the energy of a stiff spring at an instant lacks, so that it stays in balance through an impact: central differences and the
-/// discrete gradient conserve the mean of its energies in the middles of both increments, plus (dt / 2)^2 force . acceleration.
+/// discrete gradient conserve the mean of its energies in the middles of both increments, plus (dt / 2)^2 force . acceleration; at the
+/// end of a step, behind which there is no increment, that in the middle before, less dt / 2 force . velocity there.
 double stiff_spring_correction(const Analysis& analysis, const RigidBodyState& master, std::int32_t node,
                                const RigidContact::Output& output, const ContactPoint& point) {
   const Vector3<double> force{output.normal_force};
@@ -63,6 +64,7 @@ double stiff_spring_correction(const Analysis& analysis, const RigidBodyState& m
     return 0.5 * stretched * stretched / point.stiff_spring;
   };
   const double before = energy(output.gap - half * (departure - change));
+  if (analysis.current.time_increment == 0.0) return before - energy(output.gap) - half * pressure * (departure - change);
   const double after = energy(output.gap + half * (departure + change));
   return 0.5 * (before + after) - energy(output.gap) + half * pressure * change;
 }
