@@ -4,4 +4,4 @@ set -euo pipefail
 
 source "$(dirname "$0")/../jobs/setup.sh"
 balocco_build -DBALOCCO_TESTS=ON
-cd "$BALOCCO_BUILD" && ctest --output-on-failure "$@"
+cd "$BALOCCO_BUILD" && ctest --output-on-failure --repeat after-timeout:2 "$@"

@@ -160,7 +160,7 @@ def falling(runner):
         close(results.node("U")[:, 2].max(), -0.5 * 10.0 * 0.02**2, 1e-8, "%s: fall, the least" % kind)
         close(results.node("U")[:, 2].min(), -0.5 * 10.0 * 0.02**2, 1e-8, "%s: fall, the most" % kind)
 
-        deck = solid(kind, (16, 1, 1), (8.0, 0.5, 0.5))
+        deck = solid(kind, (24, 1, 1), (8.0, 0.5, 0.5))
         deck.sets["ROOT"] = deck.where(lambda x, y, z: x < 1e-9)
         deck.sets["TIP"] = deck.where(lambda x, y, z: x > 8.0 - 1e-9)
         deck.sets["ALLNODES"] = sorted(deck.nodes)

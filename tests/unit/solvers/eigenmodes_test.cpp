@@ -27,7 +27,7 @@ TEST(Eigenmodes, EigenvaluesFarBelowAreNotListed) {
   fill_diagonal(stiffness.address(), size, [](PetscInt i) { return i < far ? -1e9 - i : static_cast<double>(i - far + 1); });
   fill_diagonal(mass.address(), size, [](PetscInt) { return 1.0; });
   const Communicator communicator;
-  Eigenmodes solver(stiffness, mass, communicator);
+  Eigenmodes solver(stiffness, mass, 0, communicator);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   EXPECT_EQ(solver.count_below(-1e-3), far);
   const auto pairs = solver.find({.shift = -1e-3, .lowest = -infinite, .highest = infinite, .number = 4});
@@ -42,7 +42,7 @@ TEST(Eigenmodes, NegativeEigenvaluesNearTheModesAreListed) {
   fill_diagonal(stiffness.address(), size, [](PetscInt i) { return i < 2 ? -3.0 - i : static_cast<double>(i - 1); });
   fill_diagonal(mass.address(), size, [](PetscInt) { return 1.0; });
   const Communicator communicator;
-  Eigenmodes solver(stiffness, mass, communicator);
+  Eigenmodes solver(stiffness, mass, 0, communicator);
   constexpr double infinite = std::numeric_limits<double>::infinity();
   const auto pairs = solver.find({.shift = -1e-3, .lowest = -infinite, .highest = infinite, .number = 3});
   ASSERT_EQ(pairs.size(), 3u);
