@@ -14,13 +14,6 @@ namespace balocco {
 namespace {
 
 template <class T>
-Matrix3<T> constant(const Matrix3<double>& matrix) {
-  Matrix3<T> result;
-  for (int i = 0; i < 9; ++i) result.component[i] = T(matrix.component[i]);
-  return result;
-}
-
-template <class T>
 Vector3<double> values(const Vector3<T>& vector) {
   return {value_of(vector[0]), value_of(vector[1]), value_of(vector[2])};
 }

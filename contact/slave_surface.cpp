@@ -7,6 +7,7 @@
 #include <map>
 
 #include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
 #include "sections/membrane_section.hpp"
 #include "sections/shell_section.hpp"
 #include "materials/material_law.hpp"
@@ -23,14 +24,6 @@ Vector3<double> at(const Model& model, std::int32_t row) {
 
 InputError refused(const Model& model, const ContactPair& pair, const std::string& what) {
   return InputError(fmt::format("{}: error: *CONTACT PAIR: {}", model.where(pair.location), what));
-}
-
-std::vector<std::int32_t> face_nodes(const Model& model, const FaceRef& face) {
-  const ElementTable& table = model.elements[face.element.table];
-  std::vector<std::int32_t> nodes;
-  for (const int local : table.type->faces[face.face])
-    nodes.push_back(table.connectivity[face.element.row * table.type->nodes + local]);
-  return nodes;
 }
 
 /// Fan of triangles about the centroid: centroid, area, area vector, and the volume between the face and the origin of

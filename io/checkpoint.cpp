@@ -21,7 +21,7 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 4;
+constexpr std::int64_t format_version = 5;
 constexpr int body_values = 16;    // position 3, orientation 4, velocity 3, angular velocity 3, rotation 3
 // Multiplier, closed, anchor 3, slip, frictional dissipation, stiff spring, its force, friction 3, implicit spring.
 constexpr int contact_values = 13;
@@ -199,24 +199,39 @@ void write_bodies(const Hdf5File& file, const State& state) {
   file.write("/rigid_bodies", {state.rigid_bodies.size(), body_values}, motions);
 }
 
-/// The ranks that hold a constraint hold the same bits, the others zero.
-std::vector<double> all_multipliers(const Communicator& communicator, const State& state) {
-  std::vector<double> greatest(state.multiplier), least(state.multiplier.size());
-  std::ranges::transform(greatest, least.begin(), std::negate<>());
-  if (greatest.empty()) return greatest;
-  communicator.maximum(std::span<double>(greatest));
-  communicator.maximum(std::span<double>(least));
-  for (std::size_t row = 0; row < greatest.size(); ++row)
-    if (greatest[row] <= 0.0) greatest[row] = -least[row];
-  return greatest;
+/// What all ranks know together of constraints: those that hold one hold the same bits of it, the others zero.
+struct ConstraintRows {
+  std::vector<double> multipliers, implied;  // implied: 1 where State::implied_rows names the row
+
+  ConstraintRows(const Communicator& communicator, const State& state) : multipliers(state.multiplier), implied(state.multiplier.size(), 0.0) {
+    if (multipliers.empty()) return;
+    std::vector<double> opposite(multipliers.size());
+    std::ranges::transform(multipliers, opposite.begin(), std::negate<>());
+    for (const auto row : state.implied_rows) implied[row] = 1.0;
+    for (auto* values : {&multipliers, &opposite, &implied}) communicator.maximum(std::span<double>(*values));
+    for (std::size_t row = 0; row < multipliers.size(); ++row)
+      if (multipliers[row] <= 0.0) multipliers[row] = -opposite[row];
+  }
+};
+
+void read_constraint_rows(const Hdf5File& file, State& state) {
+  if (!file.exists("/multipliers")) return;
+  state.multiplier = file.read("/multipliers");
+  const auto implied = file.read("/implied_rows");
+  state.implied_rows.clear();
+  for (std::size_t row = 0; row < implied.size(); ++row)
+    if (implied[row] != 0.0) state.implied_rows.push_back(static_cast<std::int32_t>(row));
 }
 
 /// What belongs to no table; the format's name comes last and makes the file valid.
-void write_header(const std::string& path, const Model& model, const State& state, const std::vector<double>& multipliers,
+void write_header(const std::string& path, const Model& model, const State& state, const ConstraintRows& rows,
                   bool step_finished) {
   Hdf5File file(path, Hdf5File::Mode::modify);
   write_bodies(file, state);
-  if (!multipliers.empty()) file.write("/multipliers", {multipliers.size(), 1}, multipliers);
+  if (!rows.multipliers.empty()) {
+    file.write("/multipliers", {rows.multipliers.size(), 1}, rows.multipliers);
+    file.write("/implied_rows", {rows.implied.size(), 1}, rows.implied);
+  }
   file.set_attribute("/", "format_version", format_version);
   file.set_attribute("/", "deck_sha256", model.deck_sha256);
   for (const auto& [part, digest] : model_digests(model)) file.set_attribute("/", "digest of " + part, digest);
@@ -231,6 +246,8 @@ void write_header(const std::string& path, const Model& model, const State& stat
   file.set_attribute("/", "energy_at_start", state.energy_at_start);
   file.set_attribute("/", "largest_energy", state.largest_energy);
   file.set_attribute("/", "least_stable", state.least_stable);
+  file.set_attribute("/", "restraint_omega_square", state.restraint_omega_square);
+  file.set_attribute("/", "restraint_rate", state.restraint_rate);
   file.set_attribute("/", "format", std::string("balocco checkpoint"));
   file.close();
 }
@@ -283,6 +300,8 @@ void read_header(const Hdf5File& file, const std::string& path, const Model& mod
   state.energy_at_start = file.number_attribute("/", "energy_at_start");
   state.largest_energy = file.number_attribute("/", "largest_energy");
   state.least_stable = file.number_attribute("/", "least_stable");
+  state.restraint_omega_square = file.number_attribute("/", "restraint_omega_square");
+  state.restraint_rate = file.number_attribute("/", "restraint_rate");
 }
 
 void read_bodies(const Hdf5File& file, State& state) {
@@ -349,7 +368,7 @@ void read_all(const std::string& path, const Model& model, const Communicator& c
     const auto file = open_checkpoint(path);
     header(*file, path, model, state);
     read_bodies(*file, state);
-    if (file->exists("/multipliers")) state.multiplier = file->read("/multipliers");
+    read_constraint_rows(*file, state);
   });
   ParallelFile file(path, communicator, ParallelFile::Mode::read);
   read_tables(file, model, communicator, domain, groups, state);
@@ -367,10 +386,10 @@ void write_checkpoint(const std::string& path, const Model& model, const Communi
   ParallelFile file(beside, communicator, ParallelFile::Mode::create);
   write_tables(file, model, communicator, domain, groups, state);
   file.close();
-  const auto multipliers = all_multipliers(communicator, state);
+  const ConstraintRows rows(communicator, state);
   communicator.together([&] {
     if (!communicator.is_root()) return;
-    write_header(beside, model, state, multipliers, step_finished);
+    write_header(beside, model, state, rows, step_finished);
     synchronize(beside);
     if (std::rename(beside.c_str(), path.c_str()) != 0) {
       throw SystemError(fmt::format("{}: checkpoint cannot be put in place: {}", path, std::strerror(errno)));

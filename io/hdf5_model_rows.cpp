@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
 #include "slave_nodes.hpp"
 
 namespace balocco {
@@ -39,7 +40,7 @@ std::vector<TableRows> make_table_rows(const Model& model, const Communicator& c
 
 ContactRows make_contact_rows(const Model& model, const Communicator& communicator, const Domain& domain, std::int32_t pair,
                               Copies copies) {
-  const auto all = surface_rows(model, model.surfaces[model.contact_pairs[pair].slave]);
+  const auto all = surface_nodes(model, model.surfaces[model.contact_pairs[pair].slave]);
   const auto local = local_slave_nodes(model, pair, domain);
   std::vector<std::int32_t> points;
   std::vector<std::int64_t> rows;

@@ -9,7 +9,7 @@
 
 #include "elements/element_type.hpp"
 #include "gather.hpp"
-#include "loads/face_shapes.hpp"
+#include "elements/face_shapes.hpp"
 #include "math/tensor.hpp"
 #include "print_text.hpp"
 
@@ -33,14 +33,14 @@ constexpr std::size_t sum_size = 13;
 
 template <class Shape>
 void add_geometry(std::span<const Vector> x, Sums& sums) {
-  for (const auto& point : Shape::points()) {
+  for (const auto& point : integration_points<Shape>()) {
     Vector by_xi{}, by_eta{}, place{};
     double weight = 0.0;
     for (int i = 0; i < Shape::nodes; ++i) {
       by_xi = by_xi + point.by_xi[i] * x[i];
       by_eta = by_eta + point.by_eta[i] * x[i];
-      place = place + point.weighted[i] * x[i];
-      weight += point.weighted[i];
+      place = place + point.value[i] * x[i];
+      weight += point.value[i];
     }
     const Vector area = cross(by_xi, by_eta);
     sums.area += weight * norm(area);

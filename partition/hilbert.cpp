@@ -34,18 +34,6 @@ void to_transposed_index(std::array<std::uint32_t, 3>& axis) {
 
 }  // namespace
 
-BoundingBox bounding_box(std::span<const Point> points) {
-  if (points.empty()) return {};
-  BoundingBox box{points.front(), points.front()};
-  for (const auto& point : points) {
-    for (std::size_t c = 0; c < 3; ++c) {
-      box.low[c] = std::min(box.low[c], point[c]);
-      box.high[c] = std::max(box.high[c], point[c]);
-    }
-  }
-  return box;
-}
-
 std::uint64_t hilbert_index(const Point& point, const BoundingBox& box) {
   // One scale for all axes keeps cells cubic, so that locality is the same in every direction.
   double edge = 0.0;

@@ -2,17 +2,10 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
 
-#include "model/model.hpp"
+#include "model/bounding_box.hpp"
 
 namespace balocco {
-
-struct BoundingBox {
-  Point low{}, high{};
-};
-
-BoundingBox bounding_box(std::span<const Point> points);
 
 /// Position of a point of the box along a three-dimensional Hilbert curve of 2^20 cells a side.
 std::uint64_t hilbert_index(const Point& point, const BoundingBox& box);

@@ -9,9 +9,6 @@
 
 namespace balocco {
 
-/// Model rows of the nodes of a surface (corners of its faces, or its listed nodes), sorted, without repetition; empty if analytical.
-std::vector<std::int32_t> surface_rows(const Model& model, const Surface& surface);
-
 /// Local nodes of the slave surface of a contact pair on this rank, in the order of their model rows: point i of
 /// State::contact[pair] belongs to the i-th of them (as in RigidContact::nodes).
 std::vector<std::int32_t> local_slave_nodes(const Model& model, std::int32_t pair, const Domain& domain);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hilbert.hpp"
+#include "model/bounding_box.hpp"
 
 namespace balocco {
 
@@ -52,8 +52,7 @@ void ExplicitContact::choose_springs(Analysis& analysis) const {
 
 void ExplicitContact::report_overclosure(const Analysis& analysis, Observer& observer) const {
   const auto& model = analysis.model;
-  const auto [low, high] = bounding_box(model.nodes.coordinates);
-  const double touching = 1e-7 * std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);  // coordinates have 7 digits
+  const double touching = 1e-7 * model_size(model);  // coordinates have 7 digits
   for (const auto& pair : pairs_) {
     const auto& contact = analysis.contacts[pair.row];
     const auto& state = analysis.current;

@@ -5,26 +5,26 @@
 #include <cmath>
 
 #include "explicit_linkages.hpp"
-#include "hilbert.hpp"
+#include "model/bounding_box.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
 
-ExplicitLinkages::ExplicitLinkages(const Analysis& analysis, const Step& step, const NodalConstraints& translations,
+ExplicitLinkages::ExplicitLinkages(Analysis& analysis, const Step& step, const NodalConstraints& translations,
                                    const NodalConstraints& rotations, GyroscopicNodes& gyroscopic, RigidDynamics& bodies,
                                    InverseInertia& inverse)
     : step_(step), translations_(translations), rotations_(rotations), gyroscopic_(gyroscopic), bodies_(bodies), inverse_(inverse) {
   moves_.assign(static_cast<std::size_t>(analysis.domain.size()), false);
   turns_.assign(static_cast<std::size_t>(analysis.domain.turning), false);
+  if (analysis.current.increment == 0) analysis.current.implied_rows.clear();
   for (const auto& linkage : find_linkages(analysis.model))
     if (std::ranges::binary_search(analysis.local_constraints, linkage.constraints.front())) add_system(analysis, linkage);
   for (const auto& system : systems_) take_over(system, inverse);
 }
 
-void ExplicitLinkages::add_system(const Analysis& analysis, const Linkage& linkage) {
+void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
   auto& system = systems_.emplace_back();
-  const auto [low, high] = bounding_box(analysis.model.nodes.coordinates);
-  system.size = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
+  system.size = model_size(analysis.model);
   for (const auto index : linkage.constraints) {
     const auto& constraint = *analysis.constraints[index];
     Member member{.constraint = index, .nodes = {}, .rows = {}, .movers = {}, .columns = {}, .gradient = {}, .neighbours = {}};
@@ -39,7 +39,8 @@ void ExplicitLinkages::add_system(const Analysis& analysis, const Linkage& linka
     system.members.push_back(std::move(member));
   }
   list_columns(system);
-  drop_dependent_rows(analysis, system);
+  if (analysis.current.increment == 0) find_implied_rows(analysis, system);
+  drop_implied_rows(analysis, system);
   number(system);
 }
 
@@ -117,7 +118,7 @@ void ExplicitLinkages::list_columns(System& system) const {
 }
 
 /// Rows that others imply would leave the multipliers without a single solution.
-void ExplicitLinkages::drop_dependent_rows(const Analysis& analysis, System& system) {
+void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) const {
   find_gradient(analysis, system);
   find_responses(analysis, system);
   std::vector<SparseRow> rows;
@@ -128,34 +129,39 @@ void ExplicitLinkages::drop_dependent_rows(const Analysis& analysis, System& sys
       std::size_t k = 0;
       for (const auto m : member.movers) {
         const auto& mover = system.movers[m];
+        const bool of_node = mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation;
+        const auto length = [&](int component) {  // turns angles into lengths
+          const bool angle = mover.kind == Mover::Kind::body ? component >= 3 : mover.kind != Mover::Kind::translation;
+          return angle ? 1.0 / system.size : 1.0;
+        };
         // Along the directions in which the mover is free; those of bodies and tensors by what they answer to.
-        if (mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation)
-          for (std::size_t d = 0; d < mover.directions.size(); ++d) {
-            const auto& direction = mover.directions[d];
-            row.emplace_back(mover.first + static_cast<int>(d),
-                             line[k] * direction[0] + line[k + 1] * direction[1] + line[k + 2] * direction[2]);
-          }
-        else
-          for (int a = 0; a < mover.size; ++a) {
-            double answer = 0.0;
-            for (int b = 0; b < mover.size; ++b) answer += mover.response(a, b) * line[k + b];
-            const double scale = mover.response(a, a) > 0.0 ? 1.0 / mover.response(a, a) : 0.0;
-            row.emplace_back(mover.first + a, scale * answer);
-          }
+        for (std::size_t d = 0; of_node && d < mover.directions.size(); ++d) {
+          const auto& direction = mover.directions[d];
+          const double along = line[k] * direction[0] + line[k + 1] * direction[1] + line[k + 2] * direction[2];
+          row.emplace_back(mover.first + static_cast<int>(d), length(0) * along);
+        }
+        for (int a = 0; !of_node && a < mover.size; ++a) {
+          double answer = 0.0;
+          for (int b = 0; b < mover.size; ++b) answer += mover.response(a, b) * line[k + b];
+          const double scale = mover.response(a, a) > 0.0 ? length(a) / mover.response(a, a) : 0.0;
+          row.emplace_back(mover.first + a, scale * answer);
+        }
         k += mover.size;
       }
       rows.push_back(std::move(row));
     }
-  const auto dependent = balocco::dependent_rows(rows);
+  const auto implied = dependent_rows(rows);
   std::size_t next = 0;
-  for (auto& member : system.members) {
-    std::vector<int> kept;
+  for (const auto& member : system.members)
     for (const int row : member.rows)
-      if (dependent[next++])
-        dependent_.push_back(analysis.first_constraint_row[member.constraint] + row);
-      else
-        kept.push_back(row);
-    member.rows = std::move(kept);
+      if (implied[next++]) analysis.current.implied_rows.push_back(analysis.first_constraint_row[member.constraint] + row);
+}
+
+void ExplicitLinkages::drop_implied_rows(const Analysis& analysis, System& system) const {
+  for (auto& member : system.members) {
+    std::erase_if(member.rows, [&](int row) {
+      return std::ranges::count(analysis.current.implied_rows, analysis.first_constraint_row[member.constraint] + row) > 0;
+    });
     member.gradient.resize(member.rows.size() * member.columns.size());
   }
 }

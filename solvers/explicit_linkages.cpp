@@ -259,7 +259,7 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
       if (iteration > 0 && (instant.next == 0.0 || resolved)) break;
       correct(system);
     }
-    if (system.size > 0.0 && !(gap <= largest_gap * system.size)) report_apart(analysis, system, gap);
+    if (!(gap <= largest_gap * system.size)) report_apart(analysis, system, gap);
     for (const auto& member : system.members)
       for (std::size_t i = 0; i < member.rows.size(); ++i)
         analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]] = system.solution[member.first_row + i];

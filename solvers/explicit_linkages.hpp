@@ -25,8 +25,8 @@ struct InverseInertia {
 /// linkage computes it alike.
 class ExplicitLinkages {
  public:
-  /// Sets `inverse` to zero for the nodes that linkages move.
-  ExplicitLinkages(const Analysis& analysis, const Step& step, const NodalConstraints& translations, const NodalConstraints& rotations,
+  /// Sets `inverse` to zero for the nodes that linkages move. Which rows others imply is found when the step begins, and kept in the state.
+  ExplicitLinkages(Analysis& analysis, const Step& step, const NodalConstraints& translations, const NodalConstraints& rotations,
                    GyroscopicNodes& gyroscopic, RigidDynamics& bodies, InverseInertia& inverse);
 
   bool empty() const { return systems_.empty(); }
@@ -37,9 +37,6 @@ class ExplicitLinkages {
   const InverseInertia& inverse() const { return inverse_; }
   /// Bound of the acceleration per force, where the constraints let a node move (turn) that they move.
   double mobility(const Analysis& analysis, std::int32_t node, bool rotation);
-  /// Rows of State::multiplier, of this rank's linkages, that other constraints and conditions imply.
-  const std::vector<std::int32_t>& dependent_rows() const { return dependent_; }
-
   /// Velocities at the start of a step: the nearest ones, by mass, that the constraints allow. As the next two: @throws AnalysisError, on the
   /// ranks of a linkage alone, where its motion is not determined.
   void make_velocities_consistent(Analysis& analysis);
@@ -112,12 +109,13 @@ class ExplicitLinkages {
     }
   };
 
-  void add_system(const Analysis& analysis, const Linkage& linkage);
+  void add_system(Analysis& analysis, const Linkage& linkage);
   std::int32_t mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index);
   NodeUse use_of(const Analysis& analysis, System& system, std::int32_t row, bool turns);
   void find_freedoms(const Analysis& analysis, Mover& mover) const;
   void list_columns(System& system) const;
-  void drop_dependent_rows(const Analysis& analysis, System& system);
+  void find_implied_rows(Analysis& analysis, System& system) const;
+  void drop_implied_rows(const Analysis& analysis, System& system) const;
   void number(System& system) const;
   void take_over(const System& system, InverseInertia& inverse);
 
@@ -145,7 +143,6 @@ class ExplicitLinkages {
   std::vector<System> systems_;
   std::vector<bool> moves_, turns_;
   InverseInertia inverse_;
-  std::vector<std::int32_t> dependent_;
   mutable std::vector<NodePlace> places_;          // scratch
   mutable std::vector<double> gaps_, gradient_;  // scratch
 };

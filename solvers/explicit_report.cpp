@@ -137,7 +137,7 @@ void ExplicitStep::log_balance() {
 }
 
 void ExplicitStep::log_dependent_constraints() const {
-  balocco::log_dependent_constraints(analysis_, of_all_ranks(analysis_, linkages_.dependent_rows()), observer_);
+  balocco::log_dependent_constraints(analysis_, of_all_ranks(analysis_, analysis_.current.implied_rows), observer_);
 }
 
 void ExplicitStep::log_resting_elements() const {

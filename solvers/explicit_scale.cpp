@@ -6,8 +6,8 @@
 
 #include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
-#include "hilbert.hpp"
 #include "loads/body_load.hpp"
+#include "model/bounding_box.hpp"
 
 namespace balocco {
 
@@ -20,14 +20,9 @@ double distance(const Point& a, const Point& b) {
   return std::hypot(a[0] - b[0], a[1] - b[1], a[2] - b[2]);
 }
 
-double model_size(const Model& model) {
-  const BoundingBox box = bounding_box(model.nodes.coordinates);
-  return distance(box.low, box.high);
-}
-
 /// Shortest distance between two nodes of an element, for each local node over all elements of the model that touch it.
 std::vector<double> shortest_edges(const Model& model, const Domain& domain) {
-  const double longest = std::max(model_size(model), 1e-300);
+  const double longest = model_size(model);
   std::vector<double> edge(static_cast<std::size_t>(domain.size()), longest);
   const auto shorten = [&](std::int32_t row, double length) {
     if (const auto node = domain.local_node[row]; node >= 0 && length > 0.0) edge[node] = std::min(edge[node], length);

@@ -46,6 +46,18 @@ InverseInertia inverse_inertia(const Analysis& analysis, const GyroscopicNodes& 
   return inverse;
 }
 
+/// How far bodies and linkages give way to springs depends on where they stand: what was found when the step began holds for all of it,
+/// also after a restart.
+RestraintBound bound_of_step(Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies, ExplicitLinkages& linkages) {
+  auto& state = analysis.current;
+  if (state.increment == 0) {
+    const auto bound = restraint_bound(analysis, restraints, bodies, linkages);
+    state.restraint_omega_square = bound.omega_square;
+    state.restraint_rate = bound.rate;
+  }
+  return {state.restraint_omega_square, state.restraint_rate};
+}
+
 /// Attachments come first of all: what follows depends on who carries which node.
 const Step& started(Analysis& analysis, const Step& step) {
   if (analysis.current.increment == 0) analysis.start_step(step);
@@ -68,7 +80,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       inverse_(inverse_inertia(analysis, gyroscopic_)),
       linkages_(analysis, step, constraints_, rotation_constraints_, gyroscopic_, bodies_, inverse_),
       restraints_(nodal_restraints(analysis)),
-      restraint_bound_(restraint_bound(analysis, restraints_, bodies_, linkages_)),
+      restraint_bound_(bound_of_step(analysis, restraints_, bodies_, linkages_)),
       scale_(force_scale(analysis, step, restraints_, restraint_bound_)),
       control_(step),
       contact_(analysis, step, constraints_, bodies_, inverse_.mass),

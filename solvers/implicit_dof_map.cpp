@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "constraints/linkages.hpp"
+#include "model/bounding_box.hpp"
 
 namespace balocco {
 
@@ -103,6 +104,7 @@ void ImplicitDofMap::drop_dependent_rows() {
   std::vector<NodePlace> places;
   std::vector<double> gradient;
   std::size_t first = 0;
+  const double size = model_size(analysis_.model);  // turns angles into lengths
   for (const auto index : analysis_.local_constraints) {
     const auto& constraint = *analysis_.constraints[index];
     const auto width = static_cast<std::size_t>(constraint.columns());
@@ -117,7 +119,7 @@ void ImplicitDofMap::drop_dependent_rows() {
           const auto& d = motion.direction[k];
           for (int row = 0; row < constraint.rows(); ++row) {
             const double* g = &gradient[row * width + column];
-            const double value = g[0] * d[0] + g[1] * d[1] + g[2] * d[2];
+            const double value = (g[0] * d[0] + g[1] * d[1] + g[2] * d[2]) / (is_rotation(motion.slots[k]) ? size : 1.0);
             if (value != 0.0) rows[first + row].emplace_back(motion.slots[k], value);
           }
         }

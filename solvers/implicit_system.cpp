@@ -6,6 +6,7 @@
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
 #include "math/rotation.hpp"
+#include "model/bounding_box.hpp"
 
 namespace balocco {
 
@@ -26,14 +27,7 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
 }
 
 void ImplicitSystem::find_levers() {
-  Point low = analysis_.model.nodes.coordinates.front(), high = low;
-  for (const auto& point : analysis_.model.nodes.coordinates)
-    for (int i = 0; i < 3; ++i) {
-      low[i] = std::min(low[i], point[i]);
-      high[i] = std::max(high[i], point[i]);
-    }
-  model_size_ = std::hypot(high[0] - low[0], high[1] - low[1], high[2] - low[2]);
-  if (model_size_ == 0.0) model_size_ = 1.0;
+  model_size_ = balocco::model_size(analysis_.model);
   lever_.assign(map_.slots(), 1.0);
   for (std::size_t body = 0; body < analysis_.current.rigid_bodies.size(); ++body) {
     double arm = 0.0;

@@ -10,7 +10,7 @@
 #include "deck/geometry.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
-#include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
 #include "elements/turning_nodes.hpp"
 
 namespace balocco::deck {
@@ -22,9 +22,7 @@ std::map<std::int32_t, double> nodes_with_areas(const Model& model, const Surfac
   std::map<std::int32_t, double> share;
   for (const auto node : surface.nodes) share[node] = 1.0;
   for (const auto& face : surface.faces) {
-    const auto& table = model.elements[face.element.table];
-    std::vector<std::int32_t> nodes;
-    for (const int corner : nodes_of_face(*table.type, face.face)) nodes.push_back(table.connectivity[face.element.row * table.type->nodes + corner]);
+    const auto nodes = face_nodes(model, face);
     const auto at = [&](std::size_t i) { return model.nodes.coordinates[nodes[i]]; };
     const std::size_t corners = nodes.size() > 4 ? nodes.size() / 2 : nodes.size();  // they come first
     Point area{};  // twice the vector area

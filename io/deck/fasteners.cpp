@@ -11,6 +11,7 @@
 #include "deck/geometry.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
+#include "elements/surface_nodes.hpp"
 
 namespace balocco::deck {
 
@@ -41,11 +42,7 @@ std::vector<Layer> read_layers(Builder& builder, const Block& block) {
       const auto surface = builder.require(builder.surfaces, row.name(field), block, row.location());
       if (!surface) return {};
       const auto& found = builder.model.surfaces[*surface];
-      Layer layer{&found, FaceProjection(builder.model, found), {}};
-      for (const auto& face : layer.faces.faces()) layer.nodes.insert(layer.nodes.end(), face.begin(), face.end());
-      std::ranges::sort(layer.nodes);
-      layer.nodes.erase(std::unique(layer.nodes.begin(), layer.nodes.end()), layer.nodes.end());
-      layers.push_back(std::move(layer));
+      layers.push_back({&found, FaceProjection(builder.model, found), surface_nodes(builder.model, found)});
     }
   }
   if (layers.size() < 2)

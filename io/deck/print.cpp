@@ -47,28 +47,28 @@ void read_variables(Builder& builder, const Block& block, const Words& known, Pr
   if (!output.variables.empty()) builder.model.steps.back().print_outputs.push_back(std::move(output));
 }
 
+/// The set that the parameter names, if any, of the model's sets. @return false if it is undefined (told).
+template <class Set>
+bool read_set(Builder& builder, const Block& block, const char* parameter, const Names& names, const std::vector<Set>& sets,
+              PrintOutput& output) {
+  if (!block.has(parameter)) return true;
+  const auto set = builder.require(names, block.value(parameter), block, block.location);
+  if (!set) return false;
+  output.set = *set;
+  output.set_name = sets[*set].name;
+  return true;
+}
+
 void read_node_print(Builder& builder, const Block& block) {
   auto output = begin_print(builder, block, PrintOutput::Kind::nodes);
-  if (!output) return;
-  if (block.has("NSET")) {
-    const auto set = builder.require(builder.node_sets, block.value("NSET"), block, block.location);
-    if (!set) return;
-    output->set = *set;
-    output->set_name = builder.model.node_sets[*set].name;
-  }
+  if (!output || !read_set(builder, block, "NSET", builder.node_sets, builder.model.node_sets, *output)) return;
   output->global_directions = block.value("GLOBAL", "NO") == "YES";
   read_variables(builder, block, printed_of_nodes, *output);
 }
 
 void read_element_print(Builder& builder, const Block& block) {
   auto output = begin_print(builder, block, PrintOutput::Kind::elements);
-  if (!output) return;
-  if (block.has("ELSET")) {
-    const auto set = builder.require(builder.element_sets, block.value("ELSET"), block, block.location);
-    if (!set) return;
-    output->set = *set;
-    output->set_name = builder.model.element_sets[*set].name;
-  }
+  if (!output || !read_set(builder, block, "ELSET", builder.element_sets, builder.model.element_sets, *output)) return;
   output->global_directions = block.value("GLOBAL", "NO") == "YES";
   read_variables(builder, block, printed_of_elements, *output);
 }

@@ -8,23 +8,12 @@
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
 #include "deck/register.hpp"
-#include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
 #include "elements/turning_nodes.hpp"
 
 namespace balocco::deck {
 
 namespace {
-
-std::vector<std::int32_t> nodes_of_surface(const Model& model, const Surface& surface) {
-  std::vector<std::int32_t> rows = surface.nodes;
-  for (const auto& face : surface.faces) {
-    const auto& table = model.elements[face.element.table];
-    for (const int corner : nodes_of_face(*table.type, face.face)) rows.push_back(table.connectivity[face.element.row * table.type->nodes + corner]);
-  }
-  std::ranges::sort(rows);
-  rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
-  return rows;
-}
 
 /// One pair of surfaces.
 class TieReader {
@@ -38,12 +27,13 @@ class TieReader {
                             fmt::format("the second surface, {}, is the master and must be made of element faces; exchange the two, or name another",
                                         master_.name));
     const FaceProjection faces(builder_.model, master_);
-    const double tolerance = block_.real("POSITION TOLERANCE", 0.05 * faces.mean_edge());
+    mean_edge_ = faces.mean_edge();
+    const double tolerance = block_.real("POSITION TOLERANCE", 0.05 * mean_edge_);
     const auto turns = turning_nodes(builder_.model);
     const bool adjust = block_.value("ADJUST") != "NO";
     std::size_t tied = 0;
     double missed = 0.0;
-    const auto rows = nodes_of_surface(builder_.model, slave_);
+    const auto rows = surface_nodes(builder_.model, slave_);
     for (const auto row : rows) {
       const auto place = faces.nearest(builder_.model.nodes.coordinates[row], tolerance);
       if (!place) continue;
@@ -51,6 +41,11 @@ class TieReader {
       add(row, *place, turns, adjust);
       ++tied;
     }
+    if (adjust && kept_apart_)
+      builder_.warning(block_, location_,
+                       fmt::format("nodes of {} keep their distance from {}, whose nodes turn, as sheets with their thickness between them do: ADJUST moves "
+                                   "nodes onto solids alone",
+                                   slave_.name, master_.name));
     if (tied == rows.size()) return;
     for (const auto row : rows)
       if (const auto place = faces.nearest(builder_.model.nodes.coordinates[row], HUGE_VAL)) missed = std::max(missed, place->distance);
@@ -73,6 +68,7 @@ class TieReader {
     }
     tie.others_turn = std::ranges::all_of(tie.others, [&](std::int32_t other) { return turns[other]; });
     tie.rotations = tie.others_turn && turns[row] && !block_.has("NO ROTATION");
+    kept_apart_ = kept_apart_ || (tie.others_turn && place.distance > 1e-6 * mean_edge_);
     if (adjust && !tie.others_turn) builder_.model.nodes.coordinates[row] = place.position;
     builder_.model.constraints.push_back({std::move(tie), "*TIE", location_.file, location_.line});
   }
@@ -81,6 +77,8 @@ class TieReader {
   const Block& block_;
   Location location_;
   const Surface &slave_, &master_;
+  double mean_edge_ = 0.0;   // of the master
+  bool kept_apart_ = false;  // some node that ADJUST would move
 };
 
 void read_tie(Builder& builder, const Block& block) {
@@ -100,7 +98,7 @@ const RegisterKeyword tie{{"TIE",
                            Phase::constraints,
                            Place::model,
                            {name("NAME"), real("POSITION TOLERANCE"), choice("ADJUST", {"YES", "NO"}), flag("NO ROTATION"),
-                            choice("TYPE", {"SURFACE TO SURFACE", "NODE TO SURFACE"})},
+                            foreign("TYPE")},
                            read_tie}};
 
 }  // namespace

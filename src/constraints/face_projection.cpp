@@ -3,52 +3,37 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elements/element_type.hpp"
+#include "elements/face_shapes.hpp"
+#include "elements/surface_nodes.hpp"
 #include "math/tensor.hpp"
 
 namespace balocco {
 
 namespace {
 
-/// Shape functions and their slopes at (r, s): triangles 0 <= r, s, r + s <= 1, quadrilaterals -1 <= r, s <= 1.
 struct Shapes {
   std::array<double, 8> value{}, by_r{}, by_s{};
 };
 
-Shapes triangle(double r, double s, bool quadratic) {
-  const double t = 1.0 - r - s;
-  if (!quadratic) return {{t, r, s}, {-1.0, 1.0, 0.0}, {-1.0, 0.0, 1.0}};
-  return {{t * (2.0 * t - 1.0), r * (2.0 * r - 1.0), s * (2.0 * s - 1.0), 4.0 * r * t, 4.0 * r * s, 4.0 * s * t},
-          {1.0 - 4.0 * t, 4.0 * r - 1.0, 0.0, 4.0 * (t - r), 4.0 * s, -4.0 * s},
-          {1.0 - 4.0 * t, 0.0, 4.0 * s - 1.0, -4.0 * r, 4.0 * r, 4.0 * (t - s)}};
-}
-
-Shapes quadrilateral(double r, double s, bool quadratic) {
-  constexpr std::array<std::array<double, 2>, 4> corner{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  Shapes shapes;
-  for (int i = 0; i < 4; ++i) {
-    const double a = 1.0 + corner[i][0] * r, b = 1.0 + corner[i][1] * s;
-    const double c = quadratic ? a + b - 3.0 : 1.0, slope = quadratic ? 1.0 : 0.0;
-    shapes.value[i] = 0.25 * a * b * c;
-    shapes.by_r[i] = 0.25 * corner[i][0] * b * (c + slope * a);
-    shapes.by_s[i] = 0.25 * corner[i][1] * a * (c + slope * b);
-  }
-  for (int i = 0; i < 4 && quadratic; ++i) {
-    const bool along_r = i % 2 == 0;
-    const double side = i == 0 || i == 3 ? -1.0 : 1.0;  // where the other coordinate is
-    const double u = along_r ? r : s, v = along_r ? s : r;
-    shapes.value[4 + i] = 0.5 * (1.0 - u * u) * (1.0 + side * v);
-    const double by_u = -u * (1.0 + side * v), by_v = 0.5 * side * (1.0 - u * u);
-    shapes.by_r[4 + i] = along_r ? by_u : by_v;
-    shapes.by_s[4 + i] = along_r ? by_v : by_u;
-  }
-  return shapes;
+template <class Face>
+Shapes of(double r, double s) {
+  const auto shapes = Face::at(r, s);
+  Shapes result;
+  std::ranges::copy(shapes.value, result.value.begin());
+  std::ranges::copy(shapes.by_xi, result.by_r.begin());
+  std::ranges::copy(shapes.by_eta, result.by_s.begin());
+  return result;
 }
 
 bool is_triangle(std::size_t nodes) { return nodes == 3 || nodes == 6; }
 
 Shapes shapes_of(std::size_t nodes, double r, double s) {
-  return is_triangle(nodes) ? triangle(r, s, nodes == 6) : quadrilateral(r, s, nodes == 8);
+  switch (nodes) {
+    case 3: return of<LinearTriangleFace>(r, s);
+    case 6: return of<QuadraticTriangleFace>(r, s);
+    case 8: return of<SerendipityFace>(r, s);
+    default: return of<BilinearFace>(r, s);
+  }
 }
 
 /// Back onto the face.
@@ -74,10 +59,7 @@ FaceProjection::FaceProjection(const Model& model, const Surface& surface) : mod
   double sum = 0.0;
   std::size_t edges = 0;
   for (const auto& reference : surface.faces) {
-    const auto& table = model.elements[reference.element.table];
-    Face face;
-    for (const int corner : nodes_of_face(*table.type, reference.face))
-      face.nodes.push_back(table.connectivity[static_cast<std::size_t>(reference.element.row) * table.type->nodes + corner]);
+    Face face{.nodes = face_nodes(model, reference)};
     face.low = face.high = model.nodes.coordinates[face.nodes.front()];
     const std::size_t corners = is_triangle(face.nodes.size()) ? 3 : 4;
     for (std::size_t i = 0; i < face.nodes.size(); ++i) {
@@ -93,12 +75,6 @@ FaceProjection::FaceProjection(const Model& model, const Surface& surface) : mod
     faces_.push_back(std::move(face));
   }
   mean_edge_ = edges > 0 ? sum / static_cast<double>(edges) : 0.0;
-}
-
-std::vector<std::vector<std::int32_t>> FaceProjection::faces() const {
-  std::vector<std::vector<std::int32_t>> nodes;
-  for (const auto& face : faces_) nodes.push_back(face.nodes);
-  return nodes;
 }
 
 /// Least squares by Gauss-Newton from the middle, held on the face.

@@ -24,8 +24,6 @@ class FaceProjection {
 
   /// The nearest place of all faces that lie within `reach` of the point, or nothing.
   std::optional<FacePoint> nearest(const Point& point, double reach) const;
-  /// Nodes of each face.
-  std::vector<std::vector<std::int32_t>> faces() const;
   /// Mean length of the edges.
   double mean_edge() const { return mean_edge_; }
 

@@ -2,14 +2,11 @@
 
 #include <cmath>
 
-#include "math/dual.hpp"
+#include "constraints/motion_seeds.hpp"
 
 namespace balocco {
 
 namespace {
-
-using Slope = Dual<12>;
-using Curvature = Dual<12, Slope>;
 
 int rows_of(const Joint::Piece& piece) {
   switch (piece.part) {
@@ -22,24 +19,6 @@ int rows_of(const Joint::Piece& piece) {
     default:
       return 1;
   }
-}
-
-template <class T>
-Vector3<T> row(const Matrix3<T>& matrix, int i) {
-  return {matrix(i, 0), matrix(i, 1), matrix(i, 2)};
-}
-
-/// The matrix that turns vectors by a small spin, to first order.
-template <class T>
-Matrix3<T> first_order_turn(const T& x, const T& y, const T& z) {
-  return {{T(1.0), -z, y, z, T(1.0), -x, -y, x, T(1.0)}};
-}
-
-template <class T>
-Matrix3<T> constant(const Matrix3<double>& matrix) {
-  Matrix3<T> result;
-  for (int i = 0; i < 9; ++i) result.component[i] = T(matrix.component[i]);
-  return result;
 }
 
 }  // namespace
@@ -67,13 +46,11 @@ JointConstraint::JointConstraint(const Model& model, const Joint& joint, double 
 
 template <class T>
 std::array<JointConstraint::Frame<T>, 2> JointConstraint::frames(std::span<const NodePlace> places,
-                                                                 const std::array<Vector3<T>, 2>& displacement,
-                                                                 const std::array<Matrix3<T>, 2>& turn) const {
+                                                                 const std::array<MotionSeed<T>, 2>& seeds) const {
   std::array<Frame<T>, 2> result;
   for (int node = 0; node < 2; ++node) {
-    for (int c = 0; c < 3; ++c) result[node].position[c] = places[node].position[c] + displacement[node][c];
-    const auto axes = axes_[node] * transpose(places[node].rotation);  // rows: R e
-    result[node].axes = constant<T>(axes) * transpose(turn[node]);
+    for (int c = 0; c < 3; ++c) result[node].position[c] = places[node].position[c] + seeds[node].displacement[c];
+    result[node].axes = constant<T>(axes_[node] * transpose(places[node].rotation)) * transpose(seeds[node].turn);
   }
   return result;
 }
@@ -81,8 +58,8 @@ std::array<JointConstraint::Frame<T>, 2> JointConstraint::frames(std::span<const
 template <class T>
 void JointConstraint::evaluate(const std::array<Frame<T>, 2>& frames, T* g) const {
   const auto& [first, second] = frames;
-  const auto e = [&](int i) { return row(first.axes, i); };
-  const auto f = [&](int i) { return row(second.axes, i); };
+  const auto e = [&](int i) { return row_of(first.axes, i); };
+  const auto f = [&](int i) { return row_of(second.axes, i); };
   const Vector3<T> arm = second.position - first.position;
   for (const auto& piece : pieces_) switch (piece.part) {
       case Joint::Part::offset:
@@ -112,41 +89,21 @@ void JointConstraint::evaluate(const std::array<Frame<T>, 2>& frames, T* g) cons
 }
 
 void JointConstraint::gaps(std::span<const NodePlace> places, std::span<double> g) const {
-  constexpr auto still = Matrix3<double>::identity;
-  evaluate<double>(frames<double>(places, {}, {still(), still()}), g.data());
+  const MotionSeed<double> still{{}, Matrix3<double>::identity()};
+  evaluate<double>(frames<double>(places, {still, still}), g.data());
 }
 
 void JointConstraint::gradient(std::span<const NodePlace> places, std::span<double> dg) const {
-  std::array<Vector3<Slope>, 2> displacement;
-  std::array<Matrix3<Slope>, 2> turn;
-  for (int node = 0; node < 2; ++node) {
-    const auto seed = [&](int k) { return Slope(0.0, 6 * node + k); };
-    displacement[node] = {{seed(0), seed(1), seed(2)}};
-    turn[node] = first_order_turn(seed(3), seed(4), seed(5));
-  }
   std::array<Slope, 16> g;
-  evaluate<Slope>(frames<Slope>(places, displacement, turn), g.data());
+  evaluate<Slope>(frames<Slope>(places, {slope_seed(0), slope_seed(1)}), g.data());
   for (int i = 0; i < rows_; ++i)
     for (int k = 0; k < 12; ++k) dg[12 * i + k] = g[i].derivative[k];
 }
 
-/// A virtual spin follows a real one: R <- exp(virtual) exp(real) R, whose mixed derivative is that of the product.
 void JointConstraint::add_curvature(std::span<const NodePlace> places, std::span<const double> multipliers,
                                     std::span<double> pairs) const {
-  std::array<Vector3<Curvature>, 2> displacement;
-  std::array<Matrix3<Curvature>, 2> turn;
-  for (int node = 0; node < 2; ++node) {
-    const auto real = [&](int k) { return Curvature(Slope(0.0, 6 * node + k)); };
-    const auto virtual_one = [&](int k) {
-      Curvature seed(Slope(0.0));
-      seed.derivative[6 * node + k] = Slope(1.0);
-      return seed;
-    };
-    for (int c = 0; c < 3; ++c) displacement[node][c] = real(c) + virtual_one(c);
-    turn[node] = first_order_turn(virtual_one(3), virtual_one(4), virtual_one(5)) * first_order_turn(real(3), real(4), real(5));
-  }
   std::array<Curvature, 16> g;
-  evaluate<Curvature>(frames<Curvature>(places, displacement, turn), g.data());
+  evaluate<Curvature>(frames<Curvature>(places, {curvature_seed(0), curvature_seed(1)}), g.data());
   for (int i = 0; i < rows_; ++i)
     for (int k = 0; k < 12; ++k)
       for (int l = 0; l < 12; ++l) pairs[12 * k + l] += multipliers[i] * g[i].derivative[k].derivative[l];

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "constraints/constraint.hpp"
+#include "constraints/motion_seeds.hpp"
 
 namespace balocco {
 
@@ -23,8 +24,7 @@ class JointConstraint : public Constraint {
     Matrix3<T> axes;  // rows e1 e2 e3
   };
   template <class T>
-  std::array<Frame<T>, 2> frames(std::span<const NodePlace> places, const std::array<Vector3<T>, 2>& displacement,
-                                 const std::array<Matrix3<T>, 2>& turn) const;
+  std::array<Frame<T>, 2> frames(std::span<const NodePlace> places, const std::array<MotionSeed<T>, 2>& seeds) const;
   template <class T>
   void evaluate(const std::array<Frame<T>, 2>& frames, T* g) const;
 

@@ -1,8 +1,8 @@
 #include "loads/pressure_faces.hpp"
 
 #include "elements/element_type.hpp"
+#include "elements/face_shapes.hpp"
 #include "elements/nodal_packs.hpp"
-#include "loads/face_shapes.hpp"
 #include "math/dual.hpp"
 
 namespace balocco {
@@ -17,7 +17,7 @@ Vector3<T> weighted(double weight, const Vector3<T>& v) {
 /// What the face has to resist: pressure * integral of N_I (x,xi cross x,eta). `edge`: nodes relative to the first one.
 template <class Shape, class T>
 std::array<Vector3<T>, Shape::nodes> pressure_resistance(double pressure, const std::array<Vector3<T>, Shape::nodes>& edge) {
-  static constexpr auto points = Shape::points();
+  static constexpr auto points = integration_points<Shape>();
   std::array<Vector3<T>, Shape::nodes> force{};
   for (const auto& point : points) {
     Vector3<T> by_xi{}, by_eta{};
@@ -26,7 +26,7 @@ std::array<Vector3<T>, Shape::nodes> pressure_resistance(double pressure, const 
       by_eta = by_eta + weighted(point.by_eta[i], edge[i]);
     }
     const Vector3<T> area = cross(by_xi, by_eta);
-    for (int i = 0; i < Shape::nodes; ++i) force[i] = force[i] + weighted(pressure * point.weighted[i], area);
+    for (int i = 0; i < Shape::nodes; ++i) force[i] = force[i] + weighted(pressure * point.value[i], area);
   }
   return force;
 }

@@ -69,6 +69,19 @@ Matrix3<T> transpose(const Matrix3<T>& a) {
   return {{a(0, 0), a(1, 0), a(2, 0), a(0, 1), a(1, 1), a(2, 1), a(0, 2), a(1, 2), a(2, 2)}};
 }
 
+template <class T>
+Vector3<T> row_of(const Matrix3<T>& matrix, int i) {
+  return {matrix(i, 0), matrix(i, 1), matrix(i, 2)};
+}
+
+/// A matrix of constants over another scalar.
+template <class T>
+Matrix3<T> constant(const Matrix3<double>& matrix) {
+  Matrix3<T> result;
+  for (int i = 0; i < 9; ++i) result.component[i] = T(matrix.component[i]);
+  return result;
+}
+
 /// cof(A) = det(A) A^-T; its rows are cross products of the rows of A.
 template <class T>
 Matrix3<T> cofactor(const Matrix3<T>& a) {

@@ -18,8 +18,6 @@ struct ConnectorComponent {
   };
   std::optional<Curve> elasticity, damping;
   std::optional<double> reference;             // *CONNECTOR CONSTITUTIVE REFERENCE: the length or angle without force; none: as at the start
-  std::optional<double> lower_stop, upper_stop;
-  double friction = 0.0;                       // largest force of friction
 };
 
 struct Connector {

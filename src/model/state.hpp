@@ -53,6 +53,7 @@ struct State {
   bool dynamic = false;             // true once initial velocities have been applied
   double energy_at_start = 0.0;     // explicit: ETOTAL when the step began
   double largest_energy = 0.0;      // explicit: EnergyBalance::magnitude() at its largest in the step, as far as it was sampled
+  double restraint_omega_square = 0.0, restraint_rate = 0.0;  // explicit: bounds of springs and dashpots (explicit_time.hpp) when the step began
   double least_stable = 0.0;        // explicit: smallest increment that was stable since the last look at raising it; 0: none yet
   double time_increment = 0.0;      // of the increment to come (static: as suggested), 0 at the end of a step
   bool linear = true;               // only geometrically linear steps so far: positions are the reference's + linear displacements
@@ -68,7 +69,9 @@ struct State {
   std::vector<std::vector<double>> element_history;       // per element group
   std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
   std::vector<RigidBodyState> rigid_bodies;
-  std::vector<double> multiplier;                         // per row of the model's constraints: force along its gradient; kept by the ranks that hold its nodes
+  // Of constraints, kept by the ranks that hold their nodes:
+  std::vector<double> multiplier;          // per row of the model's constraints: force along its gradient
+  std::vector<std::int32_t> implied_rows;  // explicit: rows that others implied when the step began, which are not solved for
 
   NodalMotion motion() const {
     return {.position = position.data(),

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from explicit_cases import check, check_energy, run_case
+from explicit_cases import Job, check, check_energy, run_case
 
 G = 9.81
 
@@ -406,7 +406,7 @@ ALLKE, ALLIE, ALLWK, ETOTAL
 
 def same_bits(run):
     """Two tied blocks, the upper one coupled to a node on which a body hangs by a hinge, thrown about: the same bits on any number of
-    ranks."""
+    ranks, and when the job is stopped on the way and goes on on another number."""
     lower, bricks, number = block(4, 4, 2, (1.0, 1.0, 0.5))
     upper, more, other = block(3, 3, 2, (1.0, 1.0, 0.5), (0.0, 0.0, 0.5), 501, 501)
     high = [other(i, j, 2) for i in range(4) for j in range(4)]
@@ -421,14 +421,20 @@ def same_bits(run):
                       "*CONNECTOR BEHAVIOR, NAME=TORSION\n*CONNECTOR ELASTICITY, COMPONENT=4\n1e4\n*CONNECTOR DAMPING, COMPONENT=4\n10.",
                       "*CONNECTOR SECTION, ELSET=HINGE, BEHAVIOR=TORSION\nHINGE\nACROSS",
                       "*MATERIAL, NAME=SOFT\n*HYPERELASTIC, NEO HOOKE\n1e5, 1e-6\n*DENSITY\n1000.", "*SOLID SECTION, ELSET=BOTH, MATERIAL=SOFT",
-                      "*INITIAL CONDITIONS, TYPE=VELOCITY\nBOB, 1, 2.\nHIGH, 3, 1.", "*STEP\n*DYNAMIC, EXPLICIT\n, 0.05",
-                      "*OUTPUT, HISTORY, TIME INTERVAL=1e-3\n*NODE OUTPUT, NSET=ALL\nU\n*NODE OUTPUT, NSET=BOB\nU, UR\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ETOTAL\n*END STEP\n"])
+                      "*INITIAL CONDITIONS, TYPE=VELOCITY\nBOB, 1, 2.\nHIGH, 3, 1.", "*STEP\n*DYNAMIC, EXPLICIT\n, 5.",
+                      "*OUTPUT, HISTORY, TIME INTERVAL=0.1\n*NODE OUTPUT, NSET=ALL\nU\n*NODE OUTPUT, NSET=BOB\nU, UR\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ETOTAL\n*END STEP\n"])
     jobs = [run(deck, ranks) for ranks in (1, 2, 3)]
     check_energy(jobs[0], 1e-2)
-    for job in jobs[1:]:
+    stopped = Job("stopped", jobs[0].balocco, "2", jobs[0].folder)
+    (stopped.folder / "stopped.ctl").write_text("stop\n")  # looked for after 0.2 s
+    stopped.run(deck, expected_status=4)
+    (stopped.folder / "stopped.ctl").unlink(missing_ok=True)
+    stopped.ranks = "3"
+    stopped.run(deck, arguments=("--restart",))
+    for job in (*jobs[1:], stopped):
         for node in (number(2, 2, 2), other(1, 1, 0), other(0, 0, 2), 902):
             same = np.array_equal(jobs[0].history(f"node_{node}", "U")[1], job.history(f"node_{node}", "U")[1])
-            check(f"bits of node {node}", float(same), 1.0, 0.0)
+            check(f"bits of node {node} in {job.name}", float(same), 1.0, 0.0)
     moved = np.abs(jobs[0].history("node_902", "U")[1]).max()
     check("the body moves", float(moved > 0.05), 1.0, 0.0)
 

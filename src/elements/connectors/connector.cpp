@@ -4,9 +4,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "constraints/motion_seeds.hpp"
 #include "constraints/nodal_directions.hpp"
 #include "elements/element_type.hpp"
-#include "math/dual.hpp"
 #include "math/exact_sum.hpp"
 #include "math/rotation.hpp"
 
@@ -14,28 +14,8 @@ namespace balocco {
 
 namespace {
 
-using Slope = Dual<12>;
-using Curvature = Dual<12, Slope>;
-
 // Rows of an element's history.
 constexpr int motion_row = 0, force_row = 6, elastic_row = 12, dissipation_row = 18;
-
-template <class T>
-Vector3<T> axis(const Matrix3<T>& axes, int i) {
-  return {axes(i, 0), axes(i, 1), axes(i, 2)};
-}
-
-template <class T>
-Matrix3<T> first_order_turn(const T& x, const T& y, const T& z) {
-  return {{T(1.0), -z, y, z, T(1.0), -x, -y, x, T(1.0)}};
-}
-
-template <class T>
-Matrix3<T> constant(const Matrix3<double>& matrix) {
-  Matrix3<T> result;
-  for (int i = 0; i < 9; ++i) result.component[i] = T(matrix.component[i]);
-  return result;
-}
 
 double arc_tangent(double y, double x) { return std::atan2(y, x); }
 
@@ -126,7 +106,7 @@ void ConnectorGroup::measure(const Reference& reference, const std::array<Vector
   const Vector3<T> arm = position[1] - position[0];
   if (connector_.translation == Connector::Translation::axial) motion[0] = square_root(dot(arm, arm)) - reference.length;
   if (connector_.translation == Connector::Translation::cartesian)
-    for (int c = 0; c < 3; ++c) motion[c] = dot(axis(axes[0], c), arm) - reference.offset[c];
+    for (int c = 0; c < 3; ++c) motion[c] = dot(row_of(axes[0], c), arm) - reference.offset[c];
   if (connector_.rotation == Connector::Rotation::none) return;
   const Matrix3<T> m = axes[0] * transpose(axes[1]);  // e_i . f_j
   if (connector_.rotation == Connector::Rotation::cardan) {
@@ -143,20 +123,25 @@ void ConnectorGroup::measure(const Reference& reference, const std::array<Vector
   }
 }
 
-/// Angles go on beyond half a turn: of those that differ by whole turns the one nearest to the last.
-ConnectorGroup::Kinematics ConnectorGroup::kinematics(std::int32_t element, const NodalMotion& motion, std::span<const double> old_motion) const {
+template <class T>
+std::array<T, 6> ConnectorGroup::measured(std::int32_t element, const NodalMotion& motion, const std::array<MotionSeed<T>, 2>& seeds) const {
   const auto here = place(element, motion);
   const auto& reference = references_[element];
-  std::array<Vector3<Slope>, 2> position;
-  std::array<Matrix3<Slope>, 2> axes;
+  std::array<Vector3<T>, 2> position;
+  std::array<Matrix3<T>, 2> axes;
   for (int end = 0; end < 2; ++end) {
-    const auto seed = [&](int k) { return Slope(0.0, 6 * end + k); };
-    for (int c = 0; c < 3; ++c) position[end][c] = here.position[end][c] + seed(c);
-    axes[end] = constant<Slope>(reference.axes[end] * transpose(here.rotation[end])) *
-                transpose(turns() ? first_order_turn(seed(3), seed(4), seed(5)) : Matrix3<Slope>::identity());
+    for (int c = 0; c < 3; ++c) position[end][c] = here.position[end][c] + seeds[end].displacement[c];
+    axes[end] = constant<T>(reference.axes[end] * transpose(here.rotation[end])) * transpose(seeds[end].turn);
   }
-  std::array<Slope, 6> measured{};
-  measure(reference, position, axes, measured);
+  std::array<T, 6> result{};
+  measure(reference, position, axes, result);
+  return result;
+}
+
+/// Angles go on beyond half a turn: of those that differ by whole turns the one nearest to the last.
+ConnectorGroup::Kinematics ConnectorGroup::kinematics(std::int32_t element, const NodalMotion& motion, std::span<const double> old_motion) const {
+  const auto& reference = references_[element];
+  const auto measured = this->measured<Slope>(element, motion, {slope_seed(0), slope_seed(1)});
   Kinematics result;
   for (int c = 0; c < 6; ++c) {
     result.motion[c] = measured[c].value - reference.at_start[c];
@@ -169,26 +154,9 @@ ConnectorGroup::Kinematics ConnectorGroup::kinematics(std::int32_t element, cons
   return result;
 }
 
-/// stiffness += force . second derivatives, with virtual spins after real ones (as in constraints/joint.cpp).
+/// stiffness += force . second derivatives.
 void ConnectorGroup::add_curvature(std::int32_t element, const NodalMotion& motion, const Six& force, std::span<double> stiffness) const {
-  const auto here = place(element, motion);
-  const auto& reference = references_[element];
-  std::array<Vector3<Curvature>, 2> position;
-  std::array<Matrix3<Curvature>, 2> axes;
-  for (int end = 0; end < 2; ++end) {
-    const auto real = [&](int k) { return Curvature(Slope(0.0, 6 * end + k)); };
-    const auto virtual_one = [&](int k) {
-      Curvature seed(Slope(0.0));
-      seed.derivative[6 * end + k] = Slope(1.0);
-      return seed;
-    };
-    for (int c = 0; c < 3; ++c) position[end][c] = here.position[end][c] + (real(c) + virtual_one(c));
-    const auto turn = turns() ? first_order_turn(virtual_one(3), virtual_one(4), virtual_one(5)) * first_order_turn(real(3), real(4), real(5))
-                              : Matrix3<Curvature>::identity();
-    axes[end] = constant<Curvature>(reference.axes[end] * transpose(here.rotation[end])) * transpose(turn);
-  }
-  std::array<Curvature, 6> measured{};
-  measure(reference, position, axes, measured);
+  const auto measured = this->measured<Curvature>(element, motion, {curvature_seed(0), curvature_seed(1)});
   const int size = 2 * freedoms_per_node_;
   const auto column = [&](int k) { return 6 * (k / freedoms_per_node_) + k % freedoms_per_node_; };
   for (int c = 0; c < 6; ++c)

@@ -6,9 +6,9 @@
 
 #include <optional>
 
+#include "constraints/motion_seeds.hpp"
 #include "elements/element_group.hpp"
 #include "elements/springs/force_curve.hpp"
-#include "math/tensor.hpp"
 
 namespace balocco {
 
@@ -62,6 +62,8 @@ class ConnectorGroup : public ElementGroup {
   template <class T>
   void measure(const Reference& reference, const std::array<Vector3<T>, 2>& position, const std::array<Matrix3<T>, 2>& axes,
                std::array<T, 6>& motion) const;
+  template <class T>
+  std::array<T, 6> measured(std::int32_t element, const NodalMotion& motion, const std::array<MotionSeed<T>, 2>& seeds) const;
   Kinematics kinematics(std::int32_t element, const NodalMotion& motion, std::span<const double> old_motion) const;
   void add_curvature(std::int32_t element, const NodalMotion& motion, const Six& force, std::span<double> stiffness) const;
   Six stretch(std::int32_t element, const Six& motion) const;
