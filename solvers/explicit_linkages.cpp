@@ -24,8 +24,6 @@ void add(Vector6& six, double factor, const Point& direction) {
   for (int c = 0; c < 3; ++c) six[c] += factor * direction[c];
 }
 
-/// Systems of more unknowns are solved by a sparse factorisation.
-constexpr int largest_dense = 60;
 constexpr int most_iterations = 8;
 /// Relative to the size of the model: what iterations must not leave.
 constexpr double largest_gap = 1e-3;
@@ -71,15 +69,15 @@ void ExplicitLinkages::find_responses(const Analysis& analysis, System& system) 
 /// Of [ average G W G^T  G_0 ; G_0^T 0 ]: how gaps change with multipliers, and with the velocities of massless directions.
 bool ExplicitLinkages::factorizes(System& system, double average) const {
   const auto unknowns = static_cast<std::size_t>(system.unknowns);
-  const bool small = system.unknowns <= largest_dense;
-  std::vector<Eigen::Triplet<double>> entries;
+  const bool small = system.is_small();
+  std::vector<SparseSolver::Entry> entries;
   if (small) system.matrix.assign(unknowns * unknowns, 0.0);
   const auto set = [&](int i, int j, double value) {
     if (small)
       system.matrix[i * unknowns + j] = system.matrix[j * unknowns + i] = value;
-    else if (value != 0.0) {
-      entries.emplace_back(i, j, value);
-      if (i != j) entries.emplace_back(j, i, value);
+    else {  // zeros too: the pattern stays
+      entries.push_back({i, j, value});
+      if (i != j) entries.push_back({j, i, value});
     }
   };
   for (const auto& member : system.members)
@@ -108,32 +106,16 @@ bool ExplicitLinkages::factorizes(System& system, double average) const {
       }
       for (const int column : member.columns) system.row[column] = 0.0;
     }
-  bool sound = true;
-  if (small) {
-    sound = system.factors.factorize(system.matrix, unknowns);
-  } else {
-    Eigen::SparseMatrix<double> matrix(system.unknowns, system.unknowns);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    if (!system.sparse_factors) {
-      system.sparse_factors = std::make_unique<Eigen::SparseLU<Eigen::SparseMatrix<double>>>();
-      system.sparse_factors->analyzePattern(matrix);
-    }
-    system.sparse_factors->factorize(matrix);
-    sound = system.sparse_factors->info() == Eigen::Success;
-  }
   system.factorized_for = average;
-  return sound;
+  return small ? system.factors.factorize(system.matrix, unknowns) : system.sparse_factors.factorize(entries, system.unknowns);
 }
 
 /// solution -= matrix^-1 residual.
 void ExplicitLinkages::correct(System& system) const {
-  if (system.sparse_factors) {
-    const Eigen::Map<const Eigen::VectorXd> right(system.residual.data(), system.unknowns);
-    const Eigen::VectorXd correction = system.sparse_factors->solve(right);
-    std::ranges::copy(correction, system.residual.begin());
-  } else {
+  if (system.is_small())
     system.factors.solve(system.residual);
-  }
+  else
+    system.sparse_factors.solve(system.residual);
   for (std::size_t i = 0; i < system.solution.size(); ++i) system.solution[i] -= system.residual[i];
 }
 

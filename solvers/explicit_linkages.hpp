@@ -3,9 +3,6 @@
 // and rigid bodies): no penalty, no drift, no bound on the increment.
 #pragma once
 
-#include <Eigen/Dense>
-#include <Eigen/SparseLU>
-#include <memory>
 #include <vector>
 
 #include "constraints/linkages.hpp"
@@ -13,6 +10,7 @@
 #include "explicit_gyroscopic.hpp"
 #include "explicit_motion.hpp"
 #include "math/pivoting_solver.hpp"
+#include "sparse_solver.hpp"
 
 namespace balocco {
 
@@ -98,11 +96,13 @@ class ExplicitLinkages {
     double average = 0.0;        // increment of the last motion
     std::vector<double> matrix;  // unknowns x unknowns, of small ones
     PivotingSolver factors;
-    std::unique_ptr<Eigen::SparseLU<Eigen::SparseMatrix<double>>> sparse_factors;  // of large ones
+    SparseSolver sparse_factors;             // of large ones
     double factorized_for = 0.0;             // average increment; 0: none
     std::vector<double> solution, residual;  // multipliers and velocities
     std::vector<double> row;                 // scratch, a value a column
 
+    /// Larger systems are solved by a sparse factorisation.
+    bool is_small() const { return unknowns <= 60; }
     double velocity_at(int column) const {
       const auto [mover, component] = mover_of_column[column];
       return movers[mover].velocity[component];
