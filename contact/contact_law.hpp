@@ -7,7 +7,7 @@
 
 #include "master_surface.hpp"
 #include "math/dual.hpp"
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 #include "math/tensor.hpp"
 #include "model/state.hpp"
 

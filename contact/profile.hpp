@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "math/dual.hpp"
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 #include "model/model.hpp"
 
 namespace balocco {

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "math/dual.hpp"
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 #include "math/tensor.hpp"
 #include "model/model.hpp"
 #include "surface_point.hpp"

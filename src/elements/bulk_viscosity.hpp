@@ -1,7 +1,7 @@
 // Bulk viscosity and the stable increment of solids, over packs or doubles.
 #pragma once
 
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 #include "math/tensor.hpp"
 
 namespace balocco {

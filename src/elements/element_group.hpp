@@ -16,7 +16,7 @@
 #include <vector>
 
 #include "elements/nodal_motion.hpp"
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -161,8 +161,9 @@ class ElementGroup {
 
  protected:
   /// Merges the increments of the pack that starts at lane `first`.
-  void merge(const Pack& increments, std::int32_t first, StableIncrement& smallest) const {
-    if (std::experimental::all_of(increments >= Pack(smallest.increment))) return;
+  template <PackOfLanes T>
+  void merge(const T& increments, std::int32_t first, StableIncrement& smallest) const {
+    if (all_of(increments >= T(smallest.increment))) return;
     for (int lane = 0; lane < pack_size; ++lane)
       if (acts(first + lane)) smallest.merge({increments[lane], first + lane});
   }

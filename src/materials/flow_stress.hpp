@@ -5,7 +5,7 @@
 #include <limits>
 #include <vector>
 
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 
 namespace balocco {
 

@@ -1,9 +1,12 @@
 #include "materials/initial_stress.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 
+#include "math/pack.hpp"
+#include "math/tensor.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {

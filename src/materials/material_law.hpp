@@ -13,7 +13,7 @@
 #include <string_view>
 #include <vector>
 
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 
 namespace balocco {
 

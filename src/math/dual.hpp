@@ -7,7 +7,7 @@
 #include <cmath>
 #include <concepts>
 
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 
 namespace balocco {
 
@@ -82,7 +82,10 @@ struct Dual {
 
 /// The plain value of a scalar of any kind.
 inline double value_of(double x) { return x; }
-inline const Pack& value_of(const Pack& x) { return x; }
+template <PackOfLanes T>
+const T& value_of(const T& x) {
+  return x;
+}
 template <int N, class Real>
 const Real& value_of(const Dual<N, Real>& x) {
   return x.value;

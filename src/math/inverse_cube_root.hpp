@@ -2,7 +2,7 @@
 #pragma once
 
 #include "math/dual.hpp"
-#include "math/pack.hpp"
+#include "math/scalar.hpp"
 
 namespace balocco {
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "math/pack.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "math/inverse_cube_root.hpp"
+#include "math/pack.hpp"
 #include "model/diagnostics.hpp"
 #include "model/model.hpp"
 #include "symmetric_eigenvalues.hpp"
