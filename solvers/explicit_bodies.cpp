@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "constraints/rigid_body.hpp"
-#include "math/definite_solver.hpp"
 
 namespace balocco {
 
@@ -16,8 +15,7 @@ Vector3<double> vector(const Point& point) {
 
 /// Components along the degrees of freedom of a global pair (translation, rotation), and back.
 Vector6 along(const Matrix3<double>& axes, const Vector3<double>& translation, const Vector3<double>& rotation) {
-  const auto t = axes * translation, r = axes * rotation;
-  return (Vector6() << t[0], t[1], t[2], r[0], r[1], r[2]).finished();
+  return pair_of(axes * translation, axes * rotation);
 }
 
 struct Pair {
@@ -26,8 +24,7 @@ struct Pair {
 
 Pair global(const Matrix3<double>& axes, const Vector6& components) {
   const auto back = transpose(axes);
-  return {back * Vector3<double>{{components[0], components[1], components[2]}},
-          back * Vector3<double>{{components[3], components[4], components[5]}}};
+  return {back * components.translation(), back * components.rotation()};
 }
 
 }  // namespace
@@ -52,19 +49,16 @@ RigidDynamics::RigidDynamics(const Analysis& analysis, const Step& step) : step_
   for (const auto& condition : step.boundary) {
     const auto node = analysis.domain.local_node[condition.node];
     if (node < 0) continue;
-    if (const auto index = analysis.reference_of(node); index >= 0)
+    if (const auto index = analysis.reference_of(node); index >= 0) {
       bodies_[index].condition[condition.dof] = &condition;
+      bodies_[index].is_free = false;
+    }
   }
   sum_inertia(analysis);
   add_rotary_inertia(analysis);
   refuse_massless(analysis);
-}
-
-Vector6 RigidDynamics::inertia_forces(const Body& body, const Matrix3<double>& rotation,
-                                      const Vector3<double>& spin) const {
-  const auto centrifugal = cross(spin, cross(spin, rotation * body.first_moment));
-  const auto gyroscopic = cross(spin, rotation * body.inertia * transpose(rotation) * spin);
-  return along(body.axes, centrifugal, gyroscopic);
+  for (auto& body : bodies_)
+    if (body.is_free) invert_free(body);
 }
 
 RigidDynamics::Motion RigidDynamics::motion(const Analysis& analysis, const Body& body, std::size_t index) const {
@@ -104,7 +98,7 @@ bool RigidDynamics::is_held_still(const Analysis& analysis, std::size_t index, c
   const auto is_free = [](const BoundaryCondition* condition) { return condition == nullptr; };
   if (std::ranges::any_of(body.condition, is_free)) return false;
   const Motion now = motion(analysis, body, index);
-  return now.velocity.isZero(0.0) && prescribed(analysis, body, now, instant).isZero(0.0);
+  return now.velocity == Vector6{} && prescribed(analysis, body, now, instant) == Vector6{};
 }
 
 void RigidDynamics::add_body_forces(const Analysis& analysis, const NodalForces& forces, std::size_t index,
@@ -133,7 +127,7 @@ void RigidDynamics::sum_forces(const Analysis& analysis, const NodalForces& forc
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const bool skipped = which == Which::that_need_it && is_held_still(analysis, i, instant);
     bodies_[i].sum = skipped ? -1 : count++;
-    bodies_[i].force.setZero();
+    bodies_[i].force = {};
     if (skipped) continue;
     for (auto& sum : sums_of(bodies_[i])) sum.clear();
     add_body_forces(analysis, forces, i, sums_of(bodies_[i]));
@@ -166,34 +160,6 @@ Vector6 RigidDynamics::prescribed(const Analysis& analysis, const Body& body, co
   return velocity;
 }
 
-RigidDynamics::Response RigidDynamics::solve(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity,
-                                             const Instant& instant, const Vector6& wanted) const {
-  const auto rotation = rotation_matrix(state);
-  const Matrix6 mass = mass_matrix(body, rotation);
-  Vector6 known = Vector6::Zero();
-  for (int dof = 0; dof < 6; ++dof)
-    if (body.condition[dof] != nullptr) known[dof] = (wanted[dof] - old_velocity[dof]) / instant.average();
-  const DefiniteSolver<6> factors(reduced(body, mass));
-  Response response;
-  response.spin = vector(state.angular_velocity);
-  Vector6 load;
-  // Gyroscopic terms belong to the spin at the instant, which depends on the acceleration sought: three corrections
-  // take the error to (spin x increment)^4, below rounding for any increment that resolves the motion.
-  for (int correction = 0; correction < 3; ++correction) {
-    load = force - inertia_forces(body, rotation, response.spin);
-    Vector6 right = load - mass * known;
-    for (int dof = 0; dof < 6; ++dof)
-      if (body.condition[dof] != nullptr) right[dof] = known[dof];
-    response.acceleration = factors.solve(right);
-    const auto change = global(body.axes, response.acceleration).rotation;
-    response.spin = vector(state.angular_velocity) + 0.5 * instant.previous * change;
-  }
-  response.reaction = mass * response.acceleration - load;
-  for (int dof = 0; dof < 6; ++dof)
-    if (body.condition[dof] == nullptr) response.reaction[dof] = 0.0;
-  return response;
-}
-
 Vector6 RigidDynamics::new_velocity(const Body& body, const Vector6& old_velocity, const Response& response, const Instant& instant,
                                     const Vector6& wanted) const {
   Vector6 velocity = old_velocity + instant.average() * response.acceleration;
@@ -220,7 +186,7 @@ void RigidDynamics::accelerate(Analysis& analysis, const Instant& instant, const
     const Vector6 path = instant.previous * now.velocity + instant.next * velocity;
     const auto turn = global(body.axes, path).rotation;
     analysis.current.nodal_work[body.reference].external +=
-        0.5 * (body.reaction.dot(path) + dot(vector(moments[i]), turn));
+        0.5 * (dot(body.reaction, path) + dot(vector(moments[i]), turn));
     set_node_velocities(analysis, i, instant.next);
   }
 }

@@ -1,7 +1,6 @@
 // Rigid bodies in an explicit step: six degrees of freedom at the reference node, prescribed or free one by one.
 #pragma once
 
-#include <Eigen/Dense>
 #include <array>
 #include <optional>
 #include <span>
@@ -9,12 +8,9 @@
 
 #include "explicit_motion.hpp"
 #include "math/exact_sum.hpp"
-#include "math/tensor.hpp"
+#include "math/six.hpp"
 
 namespace balocco {
-
-using Vector6 = Eigen::Matrix<double, 6, 1>;
-using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
 /// Every rank computes the motion of every body, alike: forces are summed exactly. With reference acceleration a,
 /// angular acceleration alpha, spin w, mass m, vector c from the reference node to the centre of mass, inertia I about
@@ -83,6 +79,13 @@ class RigidDynamics {
     bool owned = false, turns = false;  // turns: has a rotation, which is the body's
     Point offset{};                     // in the body's frame
   };
+  /// As a body stands, along the degrees of freedom.
+  struct Inertia {
+    std::array<double, 4> orientation{};  // for which it was found
+    Vector3<double> first_moment{};
+    Matrix3<double> rotary{};
+    Matrix6 inverse{};               // accelerations by forces: zero for what is prescribed
+  };
   struct Body {
     std::int32_t reference = -1;  // local node
     double mass = 0.0, reach = 0.0;
@@ -90,11 +93,14 @@ class RigidDynamics {
     Matrix3<double> inertia{};                           // body frame, about the reference node
     Matrix3<double> axes = Matrix3<double>::identity();  // rows: directions of the degrees of freedom
     std::array<const BoundaryCondition*, 6> condition{};
+    bool is_free = true;                                 // no degree of freedom is prescribed
+    Matrix6 free_inverse{};                              // of the inertia of a free body, body frame
     std::vector<CarriedNode> nodes;
     std::int32_t sum = -1;  // its six sums start at 6 * sum; -1: it needs none in this increment
     // At the current instant, along the degrees of freedom:
-    Vector6 force = Vector6::Zero(), acceleration = Vector6::Zero(), reaction = Vector6::Zero();
+    Vector6 force{}, acceleration{}, reaction{};
     Vector3<double> spin{};  // at the instant, global
+    mutable Inertia inertia_now;  // found again when the body has turned
   };
   struct Motion {
     Vector6 displacement, velocity;
@@ -108,10 +114,10 @@ class RigidDynamics {
   void sum_inertia(const Analysis& analysis);
   void add_rotary_inertia(const Analysis& analysis);
   void refuse_massless(const Analysis& analysis) const;
-  double mobility(const Analysis& analysis, std::size_t index, Eigen::Matrix<double, 3, 6> arm) const;
-  static Matrix6 reduced(const Body& body, Matrix6 mass);
-  Matrix6 mass_matrix(const Body& body, const Matrix3<double>& rotation) const;
-  Vector6 inertia_forces(const Body& body, const Matrix3<double>& rotation, const Vector3<double>& spin) const;
+  double mobility(const Analysis& analysis, std::size_t index, const std::array<Vector6, 3>& arm) const;
+  void invert_free(Body& body) const;
+  static Matrix6 inverse(const Body& body, const Inertia& inertia);
+  const Inertia& inertia(const Body& body, const RigidBodyState& state) const;
   Motion motion(const Analysis& analysis, const Body& body, std::size_t index) const;
   Vector6 prescribed(const Analysis& analysis, const Body& body, const Motion& motion, const Instant& instant) const;
   Response solve(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity, const Instant& instant,

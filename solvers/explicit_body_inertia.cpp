@@ -1,6 +1,7 @@
 // Inertia of rigid bodies, and how they answer to forces.
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -14,14 +15,30 @@ namespace balocco {
 
 namespace {
 
-Matrix3<double> turned(const Matrix3<double>& rotation, const Matrix3<double>& tensor) { return rotation * tensor * transpose(rotation); }
-
-/// Rows: directions of the six degrees of freedom.
-Matrix6 directions(const Matrix3<double>& axes) {
-  Matrix6 result = Matrix6::Zero();
+/// Of forces at the reference node by its motion; the moment of m a about it is (m c) x a.
+Matrix6 mass_matrix(double mass, const Vector3<double>& first_moment, const Matrix3<double>& rotary) {
+  const auto& c = first_moment;
+  const Matrix3<double> coupling{0.0, -c[2], c[1], c[2], 0.0, -c[0], -c[1], c[0], 0.0};
+  Matrix6 matrix;
+  for (int i = 0; i < 3; ++i) matrix(i, i) = mass;
   for (int i = 0; i < 3; ++i)
-    for (int c = 0; c < 3; ++c) result(i, c) = result(3 + i, 3 + c) = axes(i, c);
-  return result;
+    for (int j = 0; j < 3; ++j) {
+      matrix(3 + i, 3 + j) = rotary(i, j);
+      matrix(3 + i, j) = matrix(j, 3 + i) = coupling(i, j);
+    }
+  return matrix;
+}
+
+Matrix6 inverse_of(const Matrix6& matrix) {
+  const DefiniteSolver<6> factors(matrix);
+  Matrix6 inverse;
+  for (int j = 0; j < 6; ++j) {
+    Vector6 unit;
+    unit[j] = 1.0;
+    const auto column = factors.solve(unit);
+    for (int i = 0; i < 6; ++i) inverse(i, j) = column[i];
+  }
+  return inverse;
 }
 
 }  // namespace
@@ -66,9 +83,10 @@ void RigidDynamics::add_rotary_inertia(const Analysis& analysis) {
 
 void RigidDynamics::refuse_massless(const Analysis& analysis) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto mass = mass_matrix(bodies_[i], rotation_matrix(analysis.current.rigid_bodies[i]));
+    const auto turn = bodies_[i].axes * rotation_matrix(analysis.current.rigid_bodies[i]);
+    const auto rotary = turn * bodies_[i].inertia * transpose(turn);
     for (int dof = 0; dof < 6; ++dof) {
-      if (bodies_[i].condition[dof] != nullptr || mass(dof, dof) > 0.0) continue;
+      if (bodies_[i].condition[dof] != nullptr || (dof < 3 ? bodies_[i].mass : rotary(dof - 3, dof - 3)) > 0.0) continue;
       const auto& body = analysis.model.rigid_bodies[i];
       throw InputError(
           fmt::format("{}: error: *RIGID BODY: degree of freedom {} of reference node {} is free in step {} but "
@@ -104,95 +122,118 @@ RigidDynamics::Yielding RigidDynamics::yielding(std::size_t index) const {
   return yielding;
 }
 
-Matrix6 RigidDynamics::mass_matrix(const Body& body, const Matrix3<double>& rotation) const {
-  const auto c = body.axes * (rotation * body.first_moment);
-  const auto inertia = turned(body.axes, turned(rotation, body.inertia));
-  Matrix6 mass = Matrix6::Zero();
-  for (int i = 0; i < 3; ++i) mass(i, i) = body.mass;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) mass(3 + i, 3 + j) = inertia(i, j);
-  // The moment of m a about the reference node is (m c) x a; the upper right block is the transpose.
-  const double coupling[3][3] = {{0.0, -c[2], c[1]}, {c[2], 0.0, -c[0]}, {-c[1], c[0], 0.0}};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) mass(3 + i, j) = mass(j, 3 + i) = coupling[i][j];
-  return mass;
+void RigidDynamics::invert_free(Body& body) const { body.free_inverse = inverse_of(mass_matrix(body.mass, body.first_moment, body.inertia)); }
+
+/// Rows of prescribed degrees of freedom become identities, so that one factorisation of fixed size serves every combination.
+Matrix6 RigidDynamics::inverse(const Body& body, const Inertia& inertia) {
+  auto matrix = mass_matrix(body.mass, inertia.first_moment, inertia.rotary);
+  const auto clear = [&](Matrix6& of, double diagonal) {
+    for (int dof = 0; dof < 6; ++dof) {
+      if (body.condition[dof] == nullptr) continue;
+      for (int i = 0; i < 6; ++i) of(dof, i) = of(i, dof) = 0.0;
+      of(dof, dof) = diagonal;
+    }
+  };
+  clear(matrix, 1.0);
+  auto result = inverse_of(matrix);
+  clear(result, 0.0);
+  return result;
+}
+
+const RigidDynamics::Inertia& RigidDynamics::inertia(const Body& body, const RigidBodyState& state) const {
+  auto& now = body.inertia_now;
+  if (now.orientation == state.orientation) return now;
+  now.orientation = state.orientation;
+  const auto turn = body.axes * rotation_matrix(state);
+  now.first_moment = turn * body.first_moment;
+  now.rotary = turn * body.inertia * transpose(turn);
+  now.inverse = body.is_free ? turned(turn, body.free_inverse) : inverse(body, now);
+  return now;
+}
+
+RigidDynamics::Response RigidDynamics::solve(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity,
+                                             const Instant& instant, const Vector6& wanted) const {
+  const auto& inertia = this->inertia(body, state);
+  const auto& c = inertia.first_moment;
+  const auto times_mass = [&](const Vector6& a) {
+    const auto linear = a.translation(), angular = a.rotation();
+    return pair_of(body.mass * linear + cross(angular, c), cross(c, linear) + inertia.rotary * angular);
+  };
+  Vector6 known, load;
+  for (int dof = 0; dof < 6; ++dof)
+    if (body.condition[dof] != nullptr) known[dof] = (wanted[dof] - old_velocity[dof]) / instant.average();
+  const auto held = body.is_free ? Vector6{} : times_mass(known);
+  Response response;
+  auto spin = old_velocity.rotation();
+  // Gyroscopic terms belong to the spin at the instant, which depends on the acceleration sought: three corrections
+  // take the error to (spin x increment)^4, below rounding for any increment that resolves the motion.
+  for (int correction = 0; correction < 3; ++correction) {
+    load = force - pair_of(cross(spin, cross(spin, c)), cross(spin, inertia.rotary * spin));
+    response.acceleration = inertia.inverse * (load - held) + known;
+    spin = old_velocity.rotation() + 0.5 * instant.previous * response.acceleration.rotation();
+  }
+  response.spin = transpose(body.axes) * spin;
+  if (body.is_free) return response;
+  const auto reaction = times_mass(response.acceleration) - load;
+  for (int dof = 0; dof < 6; ++dof)
+    if (body.condition[dof] != nullptr) response.reaction[dof] = reaction[dof];
+  return response;
 }
 
 double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, std::int32_t node) const {
   const double* x = &analysis.current.position[4 * node];
   const auto r = bodies_[index].axes * (Vector3<double>{{x[0], x[1], x[2]}} - Vector3<double>{analysis.current.rigid_bodies[index].position});
-  Eigen::Matrix<double, 3, 6> arm;  // velocity of the node: that of the reference node + spin x r
-  arm << 1, 0, 0, 0, r[2], -r[1], 0, 1, 0, -r[2], 0, r[0], 0, 0, 1, r[1], -r[0], 0;
-  return mobility(analysis, index, arm);
+  // The velocity of the node is that of the reference node + spin x r.
+  return mobility(analysis, index, {{{1, 0, 0, 0, r[2], -r[1]}, {0, 1, 0, -r[2], 0, r[0]}, {0, 0, 1, r[1], -r[0], 0}}});
 }
 
 double RigidDynamics::rotary_mobility(const Analysis& analysis, std::size_t index) const {
-  Eigen::Matrix<double, 3, 6> spin = Eigen::Matrix<double, 3, 6>::Zero();
-  spin.rightCols<3>().setIdentity();
-  return mobility(analysis, index, spin);
+  return mobility(analysis, index, {{{0, 0, 0, 1, 0, 0}, {0, 0, 0, 0, 1, 0}, {0, 0, 0, 0, 0, 1}}});
 }
 
 /// Largest eigenvalue of arm M^-1 arm^T over the free degrees of freedom.
-double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, Eigen::Matrix<double, 3, 6> arm) const {
-  const Body& body = bodies_[index];
-  const DefiniteSolver<6> factors(reduced(body, mass_matrix(body, rotation_matrix(analysis.current.rigid_bodies[index]))));
-  for (int dof = 0; dof < 6; ++dof)
-    if (body.condition[dof] != nullptr) arm.col(dof).setZero();
+double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, const std::array<Vector6, 3>& arm) const {
+  const auto& inverse = inertia(bodies_[index], analysis.current.rigid_bodies[index]).inverse;
   Eigen::Matrix3d mobility;
-  for (int i = 0; i < 3; ++i) mobility.col(i) = arm * factors.solve(Vector6(arm.row(i)));
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) mobility(i, j) = dot(arm[i], inverse * arm[j]);
   return Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(mobility, Eigen::EigenvaluesOnly).eigenvalues().maxCoeff();
 }
 
-/// Rows of prescribed degrees of freedom become identities, so that one factorisation of fixed size serves every combination.
-Matrix6 RigidDynamics::reduced(const Body& body, Matrix6 mass) {
-  for (int dof = 0; dof < 6; ++dof) {
-    if (body.condition[dof] == nullptr) continue;
-    mass.row(dof).setZero();
-    mass.col(dof).setZero();
-    mass(dof, dof) = 1.0;
-  }
-  return mass;
-}
-
 Matrix6 RigidDynamics::response(const Analysis& analysis, std::size_t index) const {
-  const Body& body = bodies_[index];
-  const DefiniteSolver<6> factors(reduced(body, mass_matrix(body, rotation_matrix(analysis.current.rigid_bodies[index]))));
-  Matrix6 inverse = Matrix6::Zero();
-  for (int dof = 0; dof < 6; ++dof)
-    if (body.condition[dof] == nullptr) inverse.col(dof) = factors.solve(Vector6(Vector6::Unit(dof)));
-  const Matrix6 axes = directions(body.axes);
-  return axes.transpose() * inverse * axes;
+  const auto& body = bodies_[index];
+  return turned(transpose(body.axes), inertia(body, analysis.current.rigid_bodies[index]).inverse);
 }
 
 Vector6 RigidDynamics::predicted_velocity(const Analysis& analysis, std::size_t index, const Instant& instant, const Vector6& more) const {
-  const Body& body = bodies_[index];
+  const auto& body = bodies_[index];
   const auto now = motion(analysis, body, index);
-  const Vector6 wanted = prescribed(analysis, body, now, instant);
-  const Matrix6 axes = directions(body.axes);
-  const auto response = solve(analysis.current.rigid_bodies[index], body, body.force + axes * more, now.velocity, instant, wanted);
-  return axes.transpose() * new_velocity(body, now.velocity, response, instant, wanted);
+  const auto wanted = prescribed(analysis, body, now, instant);
+  const auto force = body.force + pair_of(body.axes * more.translation(), body.axes * more.rotation());
+  const auto response = solve(analysis.current.rigid_bodies[index], body, force, now.velocity, instant, wanted);
+  const auto velocity = new_velocity(body, now.velocity, response, instant, wanted);
+  return pair_of(transpose(body.axes) * velocity.translation(), transpose(body.axes) * velocity.rotation());
 }
 
-void RigidDynamics::add_force(std::size_t index, const Vector6& force) { bodies_[index].force += directions(bodies_[index].axes) * force; }
+void RigidDynamics::add_force(std::size_t index, const Vector6& force) {
+  auto& body = bodies_[index];
+  body.force += pair_of(body.axes * force.translation(), body.axes * force.rotation());
+}
 
-Vector6 RigidDynamics::force(std::size_t index) const { return directions(bodies_[index].axes).transpose() * bodies_[index].force; }
+Vector6 RigidDynamics::force(std::size_t index) const {
+  const auto& body = bodies_[index];
+  return pair_of(transpose(body.axes) * body.force.translation(), transpose(body.axes) * body.force.rotation());
+}
 
 Vector6 RigidDynamics::velocity(const Analysis& analysis, std::size_t index) {
   const auto& state = analysis.current.rigid_bodies[index];
-  Vector6 velocity;
-  for (int c = 0; c < 3; ++c) {
-    velocity[c] = state.velocity[c];
-    velocity[3 + c] = state.angular_velocity[c];
-  }
-  return velocity;
+  return pair_of({state.velocity}, {state.angular_velocity});
 }
 
 void RigidDynamics::set_velocity(Analysis& analysis, std::size_t index, const Vector6& velocity) const {
   auto& state = analysis.current.rigid_bodies[index];
-  for (int c = 0; c < 3; ++c) {
-    state.velocity[c] = velocity[c];
-    state.angular_velocity[c] = velocity[3 + c];
-  }
+  state.velocity = velocity.translation().component;
+  state.angular_velocity = velocity.rotation().component;
   set_node_velocities(analysis, index, 0.0);
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "math/definite_solver.hpp"
 #include "math/rotation.hpp"
 #include "model/diagnostics.hpp"
 
@@ -17,7 +18,8 @@ Vector3<double> vector(const double* p) {
 
 }  // namespace
 
-GyroscopicNodes::GyroscopicNodes(const Analysis& analysis, const Step& step) {
+GyroscopicNodes::GyroscopicNodes(const Analysis& analysis, const Step& step)
+    : index_(static_cast<std::size_t>(analysis.domain.turning), -1) {
   for (const auto& given : analysis.rotary_tensors) {
     if (analysis.reference_of(given.node) >= 0) continue;
     const auto row = analysis.domain.node_row[given.node];
@@ -26,19 +28,19 @@ GyroscopicNodes::GyroscopicNodes(const Analysis& analysis, const Step& step) {
           "{}: error: *ROTARY INERTIA: node {} turns with a rigid body; give the inertia to the body's reference node",
           analysis.model.where(analysis.model.sections[given.section].location), analysis.model.nodes.id[row]));
     if (!contains(given.node)) {
+      index_[given.node] = static_cast<std::int32_t>(nodes_.size());
       nodes_.push_back({.node = given.node,
                         .section = given.section,
                         .tensor = analysis.rotary_inertia[given.node] * Matrix3<double>::identity()});
       if (const auto* axes = analysis.directions.find(row)) nodes_.back().axes = *axes;
     }
-    auto& node = *std::ranges::find(nodes_, given.node, &Node::node);
+    auto& node = nodes_[index_[given.node]];
     node.tensor = node.tensor + given.tensor;
   }
   for (const auto& condition : step.boundary) {
     if (condition.dof < 3) continue;
     const auto local = analysis.domain.local_node[condition.node];
-    const auto node = std::ranges::find(nodes_, local, &Node::node);
-    if (local >= 0 && node != nodes_.end()) node->condition[condition.dof - 3] = &condition;
+    if (local >= 0 && contains(local)) nodes_[index_[local]].condition[condition.dof - 3] = &condition;
   }
   for (const auto& node : nodes_) {
     const auto inertia = node.axes * node.tensor * transpose(node.axes);
@@ -53,28 +55,31 @@ GyroscopicNodes::GyroscopicNodes(const Analysis& analysis, const Step& step) {
 }
 
 bool GyroscopicNodes::contains(std::int32_t node) const {
-  return std::ranges::find(nodes_, node, &Node::node) != nodes_.end();
+  return node < static_cast<std::int32_t>(index_.size()) && index_[node] >= 0;
 }
 
-/// Along the degrees of freedom, as the node stands.
-Matrix3<double> GyroscopicNodes::inertia(const Node& node, const Analysis& analysis) const {
-  const double* const q = &analysis.current.orientation[4 * node.node];
-  const auto turn = node.axes * rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
-  return turn * node.tensor * transpose(turn);
-}
-
-/// Rows of prescribed degrees of freedom become identities.
-Eigen::Matrix3d GyroscopicNodes::reduced(const Node& node, const Matrix3<double>& inertia) {
-  Eigen::Matrix3d result;
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) result(i, j) = inertia(i, j);
+const GyroscopicNodes::Inertia& GyroscopicNodes::inertia(const Node& node, const Analysis& analysis) {
+  Quaternion<double> orientation;
+  std::copy_n(&analysis.current.orientation[4 * static_cast<std::size_t>(node.node)], 4, orientation.begin());
+  auto& now = node.inertia_now;
+  if (now.orientation == orientation) return now;
+  now.orientation = orientation;
+  const auto turn = node.axes * rotation_matrix(orientation);
+  now.tensor = turn * node.tensor * transpose(turn);
+  auto reduced = now.tensor;  // rows of prescribed degrees of freedom become identities
   for (int dof = 0; dof < 3; ++dof) {
     if (node.condition[dof] == nullptr) continue;
-    result.row(dof).setZero();
-    result.col(dof).setZero();
-    result(dof, dof) = 1.0;
+    for (int i = 0; i < 3; ++i) reduced(dof, i) = reduced(i, dof) = 0.0;
+    reduced(dof, dof) = 1.0;
   }
-  return result;
+  const DefiniteSolver<3> factors(reduced);
+  for (int j = 0; j < 3; ++j) {
+    Vector3<double> unit;
+    unit[j] = 1.0;
+    const auto column = factors.solve(unit);
+    for (int i = 0; i < 3; ++i) now.inverse(i, j) = node.condition[i] == nullptr && node.condition[j] == nullptr ? column[i] : 0.0;
+  }
+  return now;
 }
 
 GyroscopicNodes::Motion GyroscopicNodes::solve(const Node& node, const Analysis& analysis, const Step& step, const Vector3<double>& moment,
@@ -83,24 +88,19 @@ GyroscopicNodes::Motion GyroscopicNodes::solve(const Node& node, const Analysis&
   const auto& state = analysis.current;
   motion.old_spin = node.axes * vector(&state.angular_velocity[4 * node.node]);
   const auto torque = node.axes * moment, rotation = node.axes * vector(&state.rotation[4 * node.node]);
-  const auto mass = inertia(node, analysis);
+  const auto& [orientation, mass, inverse] = inertia(node, analysis);
   Vector3<double> known{}, wanted{};
   for (int dof = 0; dof < 3; ++dof) {
     if (node.condition[dof] == nullptr) continue;
     wanted[dof] = prescribed_velocity(analysis.model, step, *node.condition[dof], instant, {rotation[dof], motion.old_spin[dof]});
     known[dof] = (wanted[dof] - motion.old_spin[dof]) / instant.average();
   }
-  const Eigen::PartialPivLU<Eigen::Matrix3d> factors(reduced(node, mass));
   // The gyroscopic moment belongs to the spin at the instant, which depends on the acceleration sought: three corrections
   // take the error to (spin x increment)^4, as for rigid bodies.
   Vector3<double> spin = motion.old_spin, load{};
   for (int correction = 0; correction < 3; ++correction) {
     load = torque - cross(spin, mass * spin);
-    const auto rest = load - mass * known;
-    Eigen::Vector3d right;
-    for (int dof = 0; dof < 3; ++dof) right[dof] = node.condition[dof] != nullptr ? known[dof] : rest[dof];
-    const Eigen::Vector3d solution = factors.solve(right);
-    motion.acceleration = {{solution[0], solution[1], solution[2]}};
+    motion.acceleration = inverse * (load - mass * known) + known;
     spin = motion.old_spin + 0.5 * instant.previous * motion.acceleration;
   }
   motion.reaction = mass * motion.acceleration - load;
@@ -113,19 +113,13 @@ GyroscopicNodes::Motion GyroscopicNodes::solve(const Node& node, const Analysis&
 }
 
 Matrix3<double> GyroscopicNodes::response(const Analysis& analysis, std::int32_t node) const {
-  const auto& of = *std::ranges::find(nodes_, node, &Node::node);
-  Eigen::Matrix3d inverse = reduced(of, inertia(of, analysis)).inverse();
-  Matrix3<double> result{};
-  for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j)
-      if (of.condition[i] == nullptr && of.condition[j] == nullptr) result(i, j) = inverse(i, j);
-  return transpose(of.axes) * result * of.axes;
+  const auto& of = at(node);
+  return transpose(of.axes) * inertia(of, analysis).inverse * of.axes;
 }
 
 Vector3<double> GyroscopicNodes::predicted_spin(const Analysis& analysis, const Step& step, const Instant& instant, std::int32_t node,
                                                 const Vector3<double>& moment) const {
-  const auto& of = *std::ranges::find(nodes_, node, &Node::node);
-  return transpose(of.axes) * solve(of, analysis, step, moment, instant).new_spin;
+  return transpose(at(node).axes) * solve(at(node), analysis, step, moment, instant).new_spin;
 }
 
 void GyroscopicNodes::accelerate(Analysis& analysis, const Step& step, const Instant& instant, const double* moment) {

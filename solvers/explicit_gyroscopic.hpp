@@ -1,7 +1,6 @@
 // Nodes with a ROTARYI tensor in an explicit step: their spins obey Euler's equations.
 #pragma once
 
-#include <Eigen/Dense>
 #include <array>
 #include <vector>
 
@@ -29,6 +28,11 @@ class GyroscopicNodes {
   void add_to_output(Analysis& analysis, const Instant& instant) const;
 
  private:
+  /// As a node stands, along the degrees of freedom.
+  struct Inertia {
+    std::array<double, 4> orientation{};  // for which it was found
+    Matrix3<double> tensor{}, inverse{};  // the latter is zero in rows and columns of what is prescribed
+  };
   struct Node {
     std::int32_t node = -1;                              // local
     std::int32_t section = -1;                           // row of Model::sections, for messages
@@ -36,16 +40,18 @@ class GyroscopicNodes {
     Matrix3<double> axes = Matrix3<double>::identity();  // rows: directions of the degrees of freedom
     std::array<const BoundaryCondition*, 3> condition{};
     Vector3<double> acceleration{}, reaction{};          // along the degrees of freedom, at the instant
+    mutable Inertia inertia_now;                         // found again when the node has turned
   };
   /// Along the degrees of freedom.
   struct Motion {
     Vector3<double> acceleration{}, reaction{}, old_spin{}, new_spin{};
   };
-  Matrix3<double> inertia(const Node& node, const Analysis& analysis) const;
-  static Eigen::Matrix3d reduced(const Node& node, const Matrix3<double>& inertia);
+  const Node& at(std::int32_t node) const { return nodes_[index_[node]]; }
+  static const Inertia& inertia(const Node& node, const Analysis& analysis);
   Motion solve(const Node& node, const Analysis& analysis, const Step& step, const Vector3<double>& moment, const Instant& instant) const;
 
   std::vector<Node> nodes_;
+  std::vector<std::int32_t> index_;  // of local nodes that turn, among these; -1: none
 };
 
 }  // namespace balocco

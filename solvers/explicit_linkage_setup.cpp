@@ -27,7 +27,7 @@ void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
   system.size = model_size(analysis.model);
   for (const auto index : linkage.constraints) {
     const auto& constraint = *analysis.constraints[index];
-    Member member{.constraint = index, .nodes = {}, .rows = {}, .movers = {}, .columns = {}, .gradient = {}, .neighbours = {}};
+    Member member{.constraint = index, .nodes = {}, .rows = {}, .movers = {}, .columns = {}, .places = {}, .gradient = {}, .answer = {}, .shared = {}};
     for (std::size_t i = 0; i < constraint.nodes().size(); ++i)
       member.nodes.push_back(use_of(analysis, system, constraint.nodes()[i], constraint.turns(static_cast<int>(i))));
     for (int row = 0; row < constraint.rows(); ++row) member.rows.push_back(row);
@@ -103,14 +103,17 @@ void ExplicitLinkages::list_columns(System& system) const {
     }
     std::ranges::sort(member.movers);
     member.movers.erase(std::unique(member.movers.begin(), member.movers.end()), member.movers.end());
-    for (const auto m : member.movers)
+    std::vector<std::size_t> first;
+    for (const auto m : member.movers) {
+      first.push_back(member.columns.size());
       for (int c = 0; c < system.movers[m].size; ++c) member.columns.push_back(system.movers[m].first + c);
-    const auto place = [&](int column) { return static_cast<std::size_t>(std::ranges::lower_bound(member.columns, column) - member.columns.begin()); };
+    }
+    const auto place = [&](std::int32_t mover) {
+      return first[static_cast<std::size_t>(std::ranges::lower_bound(member.movers, mover) - member.movers.begin())];
+    };
     for (auto& use : member.nodes) {
-      use.column = place(system.movers[use.translation].first);
-      if (use.rotation < 0) continue;
-      const auto& turner = system.movers[use.rotation];
-      use.rotation_column = place(turner.first + (turner.kind == Mover::Kind::body ? 3 : 0));
+      use.column = place(use.translation);
+      if (use.rotation >= 0) use.rotation_column = place(use.rotation) + (system.movers[use.rotation].kind == Mover::Kind::body ? 3 : 0);
     }
     member.gradient.resize(member.rows.size() * member.columns.size());
   }
@@ -119,6 +122,7 @@ void ExplicitLinkages::list_columns(System& system) const {
 
 /// Rows that others imply would leave the multipliers without a single solution.
 void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) const {
+  find_places(analysis, system);
   find_gradient(analysis, system);
   find_responses(analysis, system);
   std::vector<SparseRow> rows;
@@ -163,24 +167,30 @@ void ExplicitLinkages::drop_implied_rows(const Analysis& analysis, System& syste
       return std::ranges::count(analysis.current.implied_rows, analysis.first_constraint_row[member.constraint] + row) > 0;
     });
     member.gradient.resize(member.rows.size() * member.columns.size());
+    member.answer.resize(member.gradient.size());
   }
 }
 
 void ExplicitLinkages::number(System& system) const {
-  std::vector<std::vector<std::size_t>> members_of(system.movers.size());
+  struct Use {
+    std::size_t member, first;
+  };
+  std::vector<std::vector<Use>> uses(system.movers.size());
   for (std::size_t index = 0; index < system.members.size(); ++index) {
     auto& member = system.members[index];
     member.first_row = system.rows;
     system.rows += static_cast<int>(member.rows.size());
-    for (const auto m : member.movers) members_of[m].push_back(index);
+    std::size_t first = 0;
+    for (const auto m : member.movers) {
+      uses[m].push_back({index, first});
+      first += static_cast<std::size_t>(system.movers[m].size);
+    }
   }
-  for (std::size_t index = 0; index < system.members.size(); ++index) {
-    auto& neighbours = system.members[index].neighbours;
-    for (const auto m : system.members[index].movers)
-      std::ranges::copy_if(members_of[m], std::back_inserter(neighbours), [&](std::size_t other) { return other >= index; });
-    std::ranges::sort(neighbours);
-    neighbours.erase(std::unique(neighbours.begin(), neighbours.end()), neighbours.end());
-  }
+  for (std::size_t m = 0; m < uses.size(); ++m)
+    for (std::size_t i = 0; i < uses[m].size(); ++i)
+      for (std::size_t j = i; j < uses[m].size(); ++j)
+        system.members[uses[m][i].member].shared.push_back({uses[m][j].member, uses[m][i].first, uses[m][j].first, system.movers[m].size});
+  for (auto& member : system.members) std::ranges::stable_sort(member.shared, {}, &Shared::member);
   system.unknowns = system.rows;
   for (auto& mover : system.movers) {
     const bool of_node = mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "constraints/rigid_body.hpp"
 #include "math/rotation.hpp"
@@ -13,8 +14,6 @@ namespace balocco {
 namespace {
 
 Vector3<double> vector(const double* p) { return {{p[0], p[1], p[2]}}; }
-
-Vector3<double> part(const Vector6& six, int first) { return {{six[first], six[first + 1], six[first + 2]}}; }
 
 double component(const Vector6& six, const Point& direction) {
   return six[0] * direction[0] + six[1] * direction[1] + six[2] * direction[2];
@@ -30,26 +29,32 @@ constexpr double largest_gap = 1e-3;
 
 }  // namespace
 
+void ExplicitLinkages::find_places(const Analysis& analysis, System& system) const {
+  for (auto& member : system.members) {
+    analysis.find_places(member.constraint, member.places);
+    for (auto& use : member.nodes)
+      if (use.carried)
+        use.arm = rotation_matrix(analysis.current.rigid_bodies[system.movers[use.translation].index]) * Vector3<double>{use.offset};
+  }
+}
+
 void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) const {
   for (auto& member : system.members) {
     const auto& constraint = *analysis.constraints[member.constraint];
-    analysis.find_places(member.constraint, places_);
     gradient_.resize(static_cast<std::size_t>(constraint.rows() * constraint.columns()));
-    constraint.gradient(places_, gradient_);
-    const std::size_t width = member.columns.size();
+    constraint.gradient(member.places, gradient_);
     std::ranges::fill(member.gradient, 0.0);
     for (std::size_t row = 0; row < member.rows.size(); ++row) {
-      const double* const g = &gradient_[static_cast<std::size_t>(member.rows[row] * constraint.columns())];
-      double* const line = &member.gradient[row * width];
-      for (std::size_t i = 0; i < member.nodes.size(); ++i) {
-        const auto& use = member.nodes[i];
-        for (int c = 0; c < 3; ++c) line[use.column + c] += g[6 * i + c];
+      const double* g = &gradient_[static_cast<std::size_t>(member.rows[row] * constraint.columns())];
+      double* const line = &member.gradient[row * member.columns.size()];
+      for (const auto& use : member.nodes) {
+        for (int c = 0; c < 3; ++c) line[use.column + c] += g[c];
         if (use.carried) {
-          const auto& body = analysis.current.rigid_bodies[system.movers[use.translation].index];
-          const auto moment = cross(rotation_matrix(body) * Vector3<double>{use.offset}, vector(g + 6 * i));
+          const auto moment = cross(use.arm, vector(g));
           for (int c = 0; c < 3; ++c) line[use.column + 3 + c] += moment[c];
         }
-        for (int c = 0; c < 3 && use.rotation >= 0; ++c) line[use.rotation_column + c] += g[6 * i + 3 + c];
+        for (int c = 0; c < 3 && use.rotation >= 0; ++c) line[use.rotation_column + c] += g[3 + c];
+        g += 6;
       }
     }
   }
@@ -66,61 +71,81 @@ void ExplicitLinkages::find_responses(const Analysis& analysis, System& system) 
   }
 }
 
+void ExplicitLinkages::find_answers(System& system, double average) const {
+  for (auto& member : system.members) {
+    const std::size_t width = member.columns.size();
+    for (std::size_t i = 0; i < member.rows.size(); ++i) {
+      const double* g = &member.gradient[i * width];
+      double* answer = &member.answer[i * width];
+      for (const auto m : member.movers) {
+        const auto& [response, size] = std::tie(system.movers[m].response, system.movers[m].size);
+        for (int a = 0; a < size; ++a) {
+          double sum = 0.0;
+          for (int b = 0; b < size; ++b) sum += response(a, b) * g[b];
+          answer[a] = average * sum;
+        }
+        g += size;
+        answer += size;
+      }
+    }
+  }
+}
+
 /// Of [ average G W G^T  G_0 ; G_0^T 0 ]: how gaps change with multipliers, and with the velocities of massless directions.
 bool ExplicitLinkages::factorizes(System& system, double average) const {
   const auto unknowns = static_cast<std::size_t>(system.unknowns);
   const bool small = system.is_small();
   std::vector<SparseSolver::Entry> entries;
   if (small) system.matrix.assign(unknowns * unknowns, 0.0);
-  const auto set = [&](int i, int j, double value) {
-    if (small)
-      system.matrix[i * unknowns + j] = system.matrix[j * unknowns + i] = value;
-    else {  // zeros too: the pattern stays
+  const auto add_to = [&](int i, int j, double value) {
+    if (small) {
+      system.matrix[i * unknowns + j] += value;
+      if (i != j) system.matrix[j * unknowns + i] += value;
+    } else {  // zeros too: the pattern stays
       entries.push_back({i, j, value});
       if (i != j) entries.push_back({j, i, value});
     }
   };
+  find_answers(system, average);
   for (const auto& member : system.members)
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
-      const double* const line = &member.gradient[i * member.columns.size()];
+      const int row = member.first_row + static_cast<int>(i);
+      for (const auto& [index, first, other_first, size] : member.shared) {
+        const auto& other = system.members[index];
+        const double* const answer = &member.answer[i * member.columns.size() + first];
+        for (std::size_t j = &other == &member ? i : 0; j < other.rows.size(); ++j) {
+          const double* const g = &other.gradient[j * other.columns.size() + other_first];
+          double sum = 0.0;
+          for (int k = 0; k < size; ++k) sum += answer[k] * g[k];
+          add_to(row, other.first_row + static_cast<int>(j), sum);
+        }
+      }
+      const double* g = &member.gradient[i * member.columns.size()];
       for (const auto m : member.movers) {
         const auto& mover = system.movers[m];
-        const double* const g = line + (std::ranges::lower_bound(member.columns, mover.first) - member.columns.begin());
-        for (int a = 0; a < mover.size; ++a) {
-          double sum = 0.0;
-          for (int b = 0; b < mover.size; ++b) sum += mover.response(a, b) * g[b];
-          system.row[mover.first + a] = average * sum;
-        }
-        for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k) {
-          const auto& d = mover.directions[k];
-          set(member.first_row + static_cast<int>(i), mover.first_unknown + static_cast<int>(k), g[0] * d[0] + g[1] * d[1] + g[2] * d[2]);
-        }
+        for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k)
+          add_to(row, mover.first_unknown + static_cast<int>(k), dot(vector(g), Vector3<double>{mover.directions[k]}));
+        g += mover.size;
       }
-      for (const auto other_index : member.neighbours) {
-        const auto& other = system.members[other_index];
-        for (std::size_t j = &other == &member ? i : 0; j < other.rows.size(); ++j) {
-          double sum = 0.0;
-          for (std::size_t k = 0; k < other.columns.size(); ++k) sum += other.gradient[j * other.columns.size() + k] * system.row[other.columns[k]];
-          set(member.first_row + static_cast<int>(i), other.first_row + static_cast<int>(j), sum);
-        }
-      }
-      for (const int column : member.columns) system.row[column] = 0.0;
     }
   system.factorized_for = average;
-  return small ? system.factors.factorize(system.matrix, unknowns) : system.sparse_factors.factorize(entries, system.unknowns);
+  if (!small) return system.sparse_factors.factorize(entries, system.unknowns);
+  return system.is_definite() ? system.factors.factorize(system.matrix, unknowns) : system.indefinite_factors.factorize(system.matrix, unknowns);
 }
 
 /// solution -= matrix^-1 residual.
 void ExplicitLinkages::correct(System& system) const {
-  if (system.is_small())
+  if (!system.is_small())
+    system.sparse_factors.solve(system.residual);
+  else if (system.is_definite())
     system.factors.solve(system.residual);
   else
-    system.sparse_factors.solve(system.residual);
+    system.indefinite_factors.solve(system.residual);
   for (std::size_t i = 0; i < system.solution.size(); ++i) system.solution[i] -= system.residual[i];
 }
 
 void ExplicitLinkages::find_constraint_forces(System& system) const {
-  for (auto& mover : system.movers) mover.constraint_force.setZero();
+  for (auto& mover : system.movers) mover.constraint_force = {};
   std::ranges::fill(system.row, 0.0);
   for (const auto& member : system.members)
     for (std::size_t i = 0; i < member.rows.size(); ++i)
@@ -143,7 +168,7 @@ void ExplicitLinkages::find_base(const Analysis& analysis, System& system, const
       mover.load[c] = force[c];
       mover.old_velocity[c] = velocity[c];
     }
-    mover.base.setZero();
+    mover.base = {};
     for (const auto& direction : mover.directions)
       if (mover.first_unknown < 0)
         add(mover.base, component(mover.old_velocity, direction) + instant.average() * mover.inverse_inertia * component(mover.load, direction),
@@ -159,7 +184,7 @@ void ExplicitLinkages::find_velocities(const Analysis& analysis, System& system,
         mover.velocity = bodies_.predicted_velocity(analysis, static_cast<std::size_t>(mover.index), instant, mover.constraint_force);
         break;
       case Mover::Kind::gyroscopic: {
-        const auto spin = gyroscopic_.predicted_spin(analysis, step_, instant, mover.index, part(mover.load + mover.constraint_force, 0));
+        const auto spin = gyroscopic_.predicted_spin(analysis, step_, instant, mover.index, (mover.load + mover.constraint_force).translation());
         for (int c = 0; c < 3; ++c) mover.velocity[c] = spin[c];
         break;
       }
@@ -172,27 +197,24 @@ void ExplicitLinkages::find_velocities(const Analysis& analysis, System& system,
           add(mover.velocity, change, mover.directions[k]);
         }
     }
+    if (mover.kind != Mover::Kind::translation) mover.turn = rotation_matrix(exponential(instant.next * mover.spin()));
   }
 }
 
-NodePlace ExplicitLinkages::place_after(const Analysis& analysis, const System& system, const NodeUse& use, double next) const {
-  const auto& state = analysis.current;
-  NodePlace place;
+NodePlace ExplicitLinkages::place_after(const Analysis& analysis, const System& system, const Member& member, std::size_t node,
+                                        double next) const {
+  const auto& use = member.nodes[node];
+  auto place = member.places[node];
   const auto& mover = system.movers[use.translation];
-  const auto turn_of = [&](const Vector3<double>& spin) { return rotation_matrix(exponential(next * spin)); };
-  if (mover.kind == Mover::Kind::body) {
-    const auto& body = state.rigid_bodies[mover.index];
-    place.position = Vector3<double>{body.position} + next * part(mover.velocity, 0);
-    if (use.carried) place.position = place.position + turn_of(part(mover.velocity, 3)) * (rotation_matrix(body) * Vector3<double>{use.offset});
-  } else {
-    place.position = vector(&state.position[4 * static_cast<std::size_t>(use.node)]) + next * part(mover.velocity, 0);
-  }
+  const auto path = next * mover.velocity.translation();
+  if (use.carried)
+    place.position = Vector3<double>{analysis.current.rigid_bodies[mover.index].position} + path + mover.turn * use.arm;
+  else
+    place.position = place.position + path;
   if (use.rotation < 0) return place;
   const auto& turner = system.movers[use.rotation];
-  const auto spin = part(turner.velocity, turner.kind == Mover::Kind::body ? 3 : 0);
-  const double* const q = &state.orientation[4 * static_cast<std::size_t>(use.node)];
-  place.rotation = turn_of(spin) * rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
-  place.turn = vector(&state.rotation[4 * static_cast<std::size_t>(use.node)]) + next * spin;
+  place.rotation = turner.turn * place.rotation;
+  place.turn = place.turn + next * turner.spin();
   return place;
 }
 
@@ -202,7 +224,7 @@ double ExplicitLinkages::find_residual(const Analysis& analysis, System& system,
     const auto& constraint = *analysis.constraints[member.constraint];
     if (next > 0.0) {
       places_.clear();
-      for (const auto& use : member.nodes) places_.push_back(place_after(analysis, system, use, next));
+      for (std::size_t i = 0; i < member.nodes.size(); ++i) places_.push_back(place_after(analysis, system, member, i, next));
       gaps_.resize(static_cast<std::size_t>(constraint.rows()));
       constraint.gaps(places_, gaps_);
     }
@@ -220,9 +242,18 @@ double ExplicitLinkages::find_residual(const Analysis& analysis, System& system,
   return largest;
 }
 
+/// They are close to the new ones. From the state, so that a restart begins alike.
+void ExplicitLinkages::begin_with_last_multipliers(const Analysis& analysis, System& system) const {
+  std::ranges::fill(system.solution, 0.0);
+  for (const auto& member : system.members)
+    for (std::size_t i = 0; i < member.rows.size(); ++i)
+      system.solution[member.first_row + i] = analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]];
+}
+
 void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, const NodalForces& forces) {
   constexpr double resolution = 4.0 * std::numeric_limits<double>::epsilon();
   for (auto& system : systems_) {
+    find_places(analysis, system);
     const bool constant = system.is_linear && system.factorized_for == instant.average();
     if (!constant) {
       find_gradient(analysis, system);
@@ -230,7 +261,7 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
       factorize(analysis, system, instant.average());
     }
     find_base(analysis, system, instant, forces);
-    std::ranges::fill(system.solution, 0.0);
+    begin_with_last_multipliers(analysis, system);
     double gap = 0.0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       find_constraint_forces(system);
@@ -254,6 +285,7 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
 void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
   auto& state = analysis.current;
   for (auto& system : systems_) {
+    find_places(analysis, system);
     find_gradient(analysis, system);
     find_responses(analysis, system);
     factorize(analysis, system, 1.0);
@@ -261,15 +293,15 @@ void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
     std::ranges::fill(system.residual, 0.0);
     for (auto& mover : system.movers) {
       const std::size_t at = 4 * static_cast<std::size_t>(mover.index);
-      mover.velocity.setZero();
+      mover.velocity = {};
       if (mover.kind == Mover::Kind::body)
         mover.velocity = bodies_.velocity(analysis, static_cast<std::size_t>(mover.index));
       else
-        std::copy_n(&(mover.kind == Mover::Kind::translation ? state.velocity : state.angular_velocity)[at], 3, mover.velocity.data());
+        std::copy_n(&(mover.kind == Mover::Kind::translation ? state.velocity : state.angular_velocity)[at], 3, mover.velocity.component.begin());
       if (mover.first_unknown >= 0)
         for (const auto& direction : mover.directions) add(mover.velocity, -component(mover.velocity, direction), direction);
-      mover.load.setZero();
-      mover.constraint_force.setZero();
+      mover.load = {};
+      mover.constraint_force = {};
     }
     find_residual(analysis, system, 0.0);
     correct(system);
@@ -288,18 +320,19 @@ void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
 
 void ExplicitLinkages::add_resting_forces(const Analysis& analysis, const NodalForces& forces) {
   for (auto& system : systems_) {
+    find_places(analysis, system);
     find_gradient(analysis, system);
     find_responses(analysis, system);
     factorize(analysis, system, 1.0);
     std::ranges::fill(system.solution, 0.0);
     for (auto& mover : system.movers) {
       const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(mover.index);
-      mover.load.setZero();
-      mover.constraint_force.setZero();
+      mover.load = {};
+      mover.constraint_force = {};
       if (mover.kind == Mover::Kind::body)
         mover.load = bodies_.force(static_cast<std::size_t>(mover.index));
       else
-        std::copy_n((mover.kind == Mover::Kind::translation ? forces.force : forces.moment) + at, 3, mover.load.data());
+        std::copy_n((mover.kind == Mover::Kind::translation ? forces.force : forces.moment) + at, 3, mover.load.component.begin());
       mover.velocity = mover.response * mover.load;  // accelerations, of nodes at rest
     }
     find_residual(analysis, system, 0.0);
@@ -322,7 +355,7 @@ void ExplicitLinkages::add_to_reactions(NodalConstraints& translations, NodalCon
     for (const auto& mover : system.movers) {
       if (mover.conditions.empty()) continue;
       auto& constraints = mover.kind == Mover::Kind::translation ? translations : rotations;
-      constraints.add_to_reactions(mover.index, part(mover.constraint_force, 0).component);
+      constraints.add_to_reactions(mover.index, mover.constraint_force.translation().component);
     }
 }
 
@@ -331,7 +364,7 @@ void ExplicitLinkages::set_velocities(Analysis& analysis) const {
     for (const auto& mover : system.movers) {
       if (mover.kind != Mover::Kind::translation && mover.kind != Mover::Kind::rotation) continue;
       auto& velocity = mover.kind == Mover::Kind::translation ? analysis.current.velocity : analysis.current.angular_velocity;
-      std::copy_n(mover.velocity.data(), 3, &velocity[4 * static_cast<std::size_t>(mover.index)]);
+      std::copy_n(mover.velocity.component.begin(), 3, &velocity[4 * static_cast<std::size_t>(mover.index)]);
     }
 }
 
@@ -358,6 +391,7 @@ double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, b
     for (const auto& mover : system.movers) {
       if (mover.kind != kind || mover.index != node) continue;
       if (mover.first_unknown < 0) return mover.inverse_inertia;
+      find_places(analysis, system);
       find_gradient(analysis, system);
       find_responses(analysis, system);
       const bool sound = factorizes(system, 1.0);  // else the start of the step tells

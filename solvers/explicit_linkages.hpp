@@ -9,6 +9,7 @@
 #include "explicit_bodies.hpp"
 #include "explicit_gyroscopic.hpp"
 #include "explicit_motion.hpp"
+#include "math/definite_solver.hpp"
 #include "math/pivoting_solver.hpp"
 #include "sparse_solver.hpp"
 
@@ -63,10 +64,13 @@ class ExplicitLinkages {
     std::vector<const NodalConstraints::Constraint*> conditions;  // nodes: on the others
     double inverse_inertia = 0.0;                                 // nodes; 0: massless, its velocities are unknowns
     int first_unknown = -1;                                       // of these
-    Matrix6 response = Matrix6::Zero();                           // acceleration by force
+    Matrix6 response;                                             // acceleration by force
     // At the instant:
-    Vector6 base = Vector6::Zero();                               // velocity without constraint forces
-    Vector6 old_velocity = Vector6::Zero(), velocity = Vector6::Zero(), load = Vector6::Zero(), constraint_force = Vector6::Zero();
+    Vector6 base;                                                 // velocity without constraint forces
+    Vector6 old_velocity, velocity, load, constraint_force;
+    Matrix3<double> turn;                                         // over the next increment, of what turns
+
+    Vector3<double> spin() const { return kind == Kind::body ? velocity.rotation() : velocity.translation(); }
   };
   /// How a node of a constraint moves.
   struct NodeUse {
@@ -75,6 +79,12 @@ class ExplicitLinkages {
     std::size_t column = 0, rotation_column = 0;     // of their velocities among those of the member
     bool carried = false;                            // by a body, at:
     Point offset{};
+    Vector3<double> arm{};                           // likewise, as the body stands
+  };
+  /// Movers that two members share: where their columns begin in each.
+  struct Shared {
+    std::size_t member = 0, first = 0, other_first = 0;
+    int size = 3;
   };
   struct Member {
     std::int32_t constraint = -1;
@@ -82,9 +92,11 @@ class ExplicitLinkages {
     std::vector<int> rows;  // of the constraint that are solved for
     int first_row = 0;
     std::vector<std::int32_t> movers;
-    std::vector<int> columns;             // of all its movers, rising
-    std::vector<double> gradient;         // rows x columns
-    std::vector<std::size_t> neighbours;  // members, from itself on, with which it shares movers
+    std::vector<int> columns;      // of all its movers, in turn
+    std::vector<NodePlace> places;  // of the nodes, at the instant
+    std::vector<double> gradient;  // rows x columns
+    std::vector<double> answer;    // change of velocities by multipliers, likewise
+    std::vector<Shared> shared;    // with itself and members behind it, ordered by member
   };
   struct System {
     std::vector<Mover> movers;
@@ -95,7 +107,8 @@ class ExplicitLinkages {
     double size = 0.0;           // diagonal of the box around the model, which its positions are as exact as
     double average = 0.0;        // increment of the last motion
     std::vector<double> matrix;  // unknowns x unknowns, of small ones
-    PivotingSolver factors;
+    DefiniteSystem factors;
+    PivotingSolver indefinite_factors;  // where massless directions move
     SparseSolver sparse_factors;             // of large ones
     double factorized_for = 0.0;             // average increment; 0: none
     std::vector<double> solution, residual;  // multipliers and velocities
@@ -103,6 +116,7 @@ class ExplicitLinkages {
 
     /// Larger systems are solved by a sparse factorisation.
     bool is_small() const { return unknowns <= 60; }
+    bool is_definite() const { return unknowns == rows; }
     double velocity_at(int column) const {
       const auto [mover, component] = mover_of_column[column];
       return movers[mover].velocity[component];
@@ -119,7 +133,9 @@ class ExplicitLinkages {
   void number(System& system) const;
   void take_over(const System& system, InverseInertia& inverse);
 
+  void find_places(const Analysis& analysis, System& system) const;
   void find_gradient(const Analysis& analysis, System& system) const;
+  void find_answers(System& system, double average) const;
   void find_responses(const Analysis& analysis, System& system) const;
   /// @return false where the motion is not determined.
   bool factorizes(System& system, double average) const;
@@ -129,12 +145,13 @@ class ExplicitLinkages {
   [[noreturn]] void report_singular(const Analysis& analysis, const System& system) const;
   [[noreturn]] void report_apart(const Analysis& analysis, const System& system, double gap) const;
   void correct(System& system) const;
+  void begin_with_last_multipliers(const Analysis& analysis, System& system) const;
   void find_constraint_forces(System& system) const;
   void find_base(const Analysis& analysis, System& system, const Instant& instant, const NodalForces& forces) const;
   void find_velocities(const Analysis& analysis, System& system, const Instant& instant) const;
   /// Gaps at the end of the next increment, over it (velocities, where there is none). @return the largest gap.
   double find_residual(const Analysis& analysis, System& system, double next) const;
-  NodePlace place_after(const Analysis& analysis, const System& system, const NodeUse& use, double next) const;
+  NodePlace place_after(const Analysis& analysis, const System& system, const Member& member, std::size_t node, double next) const;
 
   const Step& step_;
   const NodalConstraints &translations_, &rotations_;
@@ -144,7 +161,7 @@ class ExplicitLinkages {
   std::vector<bool> moves_, turns_;
   InverseInertia inverse_;
   mutable std::vector<NodePlace> places_;          // scratch
-  mutable std::vector<double> gaps_, gradient_;  // scratch
+  mutable std::vector<double> gaps_, gradient_;    // scratch
 };
 
 }  // namespace balocco

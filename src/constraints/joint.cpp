@@ -1,5 +1,6 @@
 #include "constraints/joint.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "constraints/motion_seeds.hpp"
@@ -45,8 +46,8 @@ JointConstraint::JointConstraint(const Model& model, const Joint& joint, double 
 }
 
 template <class T>
-std::array<JointConstraint::Frame<T>, 2> JointConstraint::frames(std::span<const NodePlace> places,
-                                                                 const std::array<MotionSeed<T>, 2>& seeds) const {
+std::array<JointConstraint::Frame<T>, 2> JointConstraint::seeded_frames(std::span<const NodePlace> places,
+                                                                        const std::array<MotionSeed<T>, 2>& seeds) const {
   std::array<Frame<T>, 2> result;
   for (int node = 0; node < 2; ++node) {
     for (int c = 0; c < 3; ++c) result[node].position[c] = places[node].position[c] + seeds[node].displacement[c];
@@ -55,55 +56,112 @@ std::array<JointConstraint::Frame<T>, 2> JointConstraint::frames(std::span<const
   return result;
 }
 
-template <class T>
-void JointConstraint::evaluate(const std::array<Frame<T>, 2>& frames, T* g) const {
-  const auto& [first, second] = frames;
-  const auto e = [&](int i) { return row_of(first.axes, i); };
-  const auto f = [&](int i) { return row_of(second.axes, i); };
-  const Vector3<T> arm = second.position - first.position;
+/// Calls `rows` for each row in turn.
+template <class Rows>
+void JointConstraint::list_rows(Rows&& rows) const {
   for (const auto& piece : pieces_) switch (piece.part) {
       case Joint::Part::offset:
         for (int i = 0; i < 3; ++i)
-          if (piece.along[i]) *g++ = dot(e(i), arm) - offset_[i];
+          if (piece.along[i]) rows.along(i);
         break;
       case Joint::Part::slot:
-        for (int i = 1; i < 3; ++i) *g++ = dot(e(i), arm) - offset_[i];
+        for (int i = 1; i < 3; ++i) rows.along(i);
         break;
       case Joint::Part::plane:
-        *g++ = dot(e(0), arm) - offset_[0];
+        rows.along(0);
         break;
       case Joint::Part::distance:
-        *g++ = square_root(dot(arm, arm)) - length_;
+        rows.distance();
         break;
-      case Joint::Part::align:  // the sine of the angle about each axis
+      case Joint::Part::align:
         for (int i = 0; i < 3; ++i)
-          if (piece.along[i]) *g++ = 0.5 * lever_ * (dot(e((i + 2) % 3), f((i + 1) % 3)) - dot(e((i + 1) % 3), f((i + 2) % 3)));
+          if (piece.along[i]) rows.sine(i);
         break;
       case Joint::Part::revolute:
-        for (int i = 1; i < 3; ++i) *g++ = lever_ * dot(e(i), f(0));
+        for (int i = 1; i < 3; ++i) rows.right_angle(i, 0);
         break;
       case Joint::Part::universal:
-        *g++ = lever_ * dot(e(0), f(2));
+        rows.right_angle(0, 2);
         break;
     }
 }
 
+template <class T>
+struct JointConstraint::Gaps {
+  const JointConstraint& joint;
+  const std::array<Frame<T>, 2>& frames;
+  T* g;
+  Vector3<T> arm = frames[1].position - frames[0].position;
+
+  T product(int i, int j) const { return dot(row_of(frames[0].axes, i), row_of(frames[1].axes, j)); }
+  void along(int i) { *g++ = dot(row_of(frames[0].axes, i), arm) - joint.offset_[i]; }
+  void distance() { *g++ = square_root(dot(arm, arm)) - joint.length_; }
+  void sine(int i) {  // of the angle about an axis
+    *g++ = 0.5 * joint.lever_ * (product((i + 2) % 3, (i + 1) % 3) - product((i + 1) % 3, (i + 2) % 3));
+  }
+  void right_angle(int i, int j) { *g++ = joint.lever_ * product(i, j); }
+};
+
+/// A spin s changes an axis e by s x e.
+struct JointConstraint::Gradient {
+  const JointConstraint& joint;
+  const std::array<Frame<double>, 2>& frames;
+  double* line;  // 12 values
+  Vector3<double> arm = frames[1].position - frames[0].position;
+
+  void put(int first, double factor, const Vector3<double>& direction) {
+    for (int c = 0; c < 3; ++c) line[first + c] += factor * direction[c];
+  }
+  void add_product(double factor, int i, int j) {
+    const auto turn = cross(row_of(frames[0].axes, i), row_of(frames[1].axes, j));
+    put(3, factor, turn);
+    put(9, -factor, turn);
+  }
+  void put_apart(const Vector3<double>& direction) {
+    put(0, -1.0, direction);
+    put(6, 1.0, direction);
+  }
+  void along(int i) {
+    const auto axis = row_of(frames[0].axes, i);
+    put_apart(axis);
+    put(3, 1.0, cross(axis, arm));
+    line += 12;
+  }
+  void distance() {
+    put_apart(1.0 / std::sqrt(dot(arm, arm)) * arm);
+    line += 12;
+  }
+  void sine(int i) {
+    add_product(0.5 * joint.lever_, (i + 2) % 3, (i + 1) % 3);
+    add_product(-0.5 * joint.lever_, (i + 1) % 3, (i + 2) % 3);
+    line += 12;
+  }
+  void right_angle(int i, int j) {
+    add_product(joint.lever_, i, j);
+    line += 12;
+  }
+};
+
+std::array<JointConstraint::Frame<double>, 2> JointConstraint::frames(std::span<const NodePlace> places) const {
+  std::array<Frame<double>, 2> result;
+  for (int node = 0; node < 2; ++node)
+    result[node] = {places[node].position, axes_[node] * transpose(places[node].rotation)};
+  return result;
+}
+
 void JointConstraint::gaps(std::span<const NodePlace> places, std::span<double> g) const {
-  const MotionSeed<double> still{{}, Matrix3<double>::identity()};
-  evaluate<double>(frames<double>(places, {still, still}), g.data());
+  list_rows(Gaps<double>{*this, frames(places), g.data()});
 }
 
 void JointConstraint::gradient(std::span<const NodePlace> places, std::span<double> dg) const {
-  std::array<Slope, 16> g;
-  evaluate<Slope>(frames<Slope>(places, {slope_seed(0), slope_seed(1)}), g.data());
-  for (int i = 0; i < rows_; ++i)
-    for (int k = 0; k < 12; ++k) dg[12 * i + k] = g[i].derivative[k];
+  std::ranges::fill(dg, 0.0);
+  list_rows(Gradient{*this, frames(places), dg.data()});
 }
 
 void JointConstraint::add_curvature(std::span<const NodePlace> places, std::span<const double> multipliers,
                                     std::span<double> pairs) const {
   std::array<Curvature, 16> g;
-  evaluate<Curvature>(frames<Curvature>(places, {curvature_seed(0), curvature_seed(1)}), g.data());
+  list_rows(Gaps<Curvature>{*this, seeded_frames<Curvature>(places, {curvature_seed(0), curvature_seed(1)}), g.data()});
   for (int i = 0; i < rows_; ++i)
     for (int k = 0; k < 12; ++k)
       for (int l = 0; l < 12; ++l) pairs[12 * k + l] += multipliers[i] * g[i].derivative[k].derivative[l];

@@ -1,5 +1,5 @@
 // Joints of two nodes: kinematic couplings, multi-point constraints and the kinematic part of connectors, all put together from a few
-// pieces. Every piece is a function of the two frames; its derivatives are those of dual numbers.
+// pieces. Every piece is a function of the two frames; its second derivatives are those of dual numbers.
 #pragma once
 
 #include "constraints/constraint.hpp"
@@ -23,10 +23,14 @@ class JointConstraint : public Constraint {
     Vector3<T> position;
     Matrix3<T> axes;  // rows e1 e2 e3
   };
+  std::array<Frame<double>, 2> frames(std::span<const NodePlace> places) const;
   template <class T>
-  std::array<Frame<T>, 2> frames(std::span<const NodePlace> places, const std::array<MotionSeed<T>, 2>& seeds) const;
+  std::array<Frame<T>, 2> seeded_frames(std::span<const NodePlace> places, const std::array<MotionSeed<T>, 2>& seeds) const;
   template <class T>
-  void evaluate(const std::array<Frame<T>, 2>& frames, T* g) const;
+  struct Gaps;
+  struct Gradient;
+  template <class Rows>
+  void list_rows(Rows&& rows) const;
 
   std::vector<Joint::Piece> pieces_;
   std::array<Matrix3<double>, 2> axes_;  // at the start

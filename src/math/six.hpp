@@ -1,0 +1,72 @@
+// Pairs of vectors, translation before rotation: motions, forces and inertia of bodies. Plain loops of fixed length, which round alike
+// on every processor.
+#pragma once
+
+#include <array>
+
+#include "math/tensor.hpp"
+
+namespace balocco {
+
+struct Vector6 {
+  std::array<double, 6> component{};
+
+  double& operator[](std::size_t i) { return component[i]; }
+  double operator[](std::size_t i) const { return component[i]; }
+  Vector3<double> translation() const { return {component[0], component[1], component[2]}; }
+  Vector3<double> rotation() const { return {component[3], component[4], component[5]}; }
+  bool operator==(const Vector6&) const = default;
+
+  Vector6& operator+=(const Vector6& b) {
+    for (std::size_t i = 0; i < 6; ++i) component[i] += b.component[i];
+    return *this;
+  }
+  friend Vector6 operator+(Vector6 a, const Vector6& b) { return a += b; }
+  friend Vector6 operator-(const Vector6& a, const Vector6& b) { return a + -1.0 * b; }
+  friend Vector6 operator*(double s, Vector6 a) {
+    for (double& value : a.component) value *= s;
+    return a;
+  }
+};
+
+inline Vector6 pair_of(const Vector3<double>& translation, const Vector3<double>& rotation) {
+  return {translation[0], translation[1], translation[2], rotation[0], rotation[1], rotation[2]};
+}
+
+inline double dot(const Vector6& a, const Vector6& b) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < 6; ++i) sum += a[i] * b[i];
+  return sum;
+}
+
+/// Row-major.
+struct Matrix6 {
+  std::array<double, 36> component{};
+
+  double& operator()(std::size_t i, std::size_t j) { return component[6 * i + j]; }
+  double operator()(std::size_t i, std::size_t j) const { return component[6 * i + j]; }
+
+  friend Vector6 operator*(const Matrix6& a, const Vector6& v) {
+    Vector6 product;
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j) product[i] += a(i, j) * v[j];
+    return product;
+  }
+};
+
+/// Q block(i, j) Q^T of each of the four blocks.
+inline Matrix6 turned(const Matrix3<double>& q, const Matrix6& a) {
+  Matrix6 result;
+  for (std::size_t bi = 0; bi < 6; bi += 3)
+    for (std::size_t bj = 0; bj < 6; bj += 3) {
+      Matrix3<double> block;
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) block(i, j) = a(bi + i, bj + j);
+      block = q * block * transpose(q);
+      for (int i = 0; i < 3; ++i)
+        for (int j = 0; j < 3; ++j) result(bi + i, bj + j) = block(i, j);
+    }
+  return result;
+}
+
+}  // namespace balocco

@@ -1,0 +1,75 @@
+// Solvers of small systems, and pairs of vectors.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+#include "math/definite_solver.hpp"
+#include "math/pivoting_solver.hpp"
+#include "math/rotation.hpp"
+#include "math/six.hpp"
+
+namespace balocco {
+namespace {
+
+/// A A^T + 1, with rows and columns in units far apart.
+std::vector<double> definite_matrix(std::size_t size) {
+  std::mt19937_64 random(11);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  std::vector<double> a(size * size), product(size * size, 0.0);
+  for (double& value : a) value = uniform(random);
+  const auto unit = [](std::size_t i) { return i % 2 == 0 ? 1.0 : 1e4; };
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = 0; j < size; ++j) {
+      for (std::size_t k = 0; k < size; ++k) product[i * size + j] += a[i * size + k] * a[j * size + k];
+      product[i * size + j] = (product[i * size + j] + (i == j ? 1.0 : 0.0)) * unit(i) * unit(j);
+    }
+  return product;
+}
+
+TEST(SmallSolvers, DefiniteAndPivotingOnesAgree) {
+  for (const std::size_t size : {1, 5, 12, 40}) {
+    const auto matrix = definite_matrix(size);
+    DefiniteSystem definite;
+    PivotingSolver pivoting;
+    ASSERT_TRUE(definite.factorize(matrix, size));
+    ASSERT_TRUE(pivoting.factorize(matrix, size));
+    std::vector<double> first(size), second(size), right(size);
+    for (std::size_t i = 0; i < size; ++i) first[i] = second[i] = right[i] = std::sin(1.0 + static_cast<double>(i));
+    definite.solve(first);
+    pivoting.solve(second);
+    for (std::size_t i = 0; i < size; ++i) {
+      EXPECT_NEAR(first[i], second[i], 1e-10 * (std::abs(second[i]) + 1e-8));
+      double product = 0.0, scale = 0.0;
+      for (std::size_t j = 0; j < size; ++j) {
+        product += matrix[i * size + j] * first[j];
+        scale += std::abs(matrix[i * size + j] * first[j]);
+      }
+      EXPECT_NEAR(product, right[i], 1e-12 * scale);
+    }
+  }
+}
+
+TEST(SmallSolvers, SingularMatricesAreTold) {
+  const std::vector<double> rank_one{1.0, 2.0, 2.0, 4.0}, indefinite{1.0, 0.0, 0.0, -1.0}, zero{0.0};
+  DefiniteSystem system;
+  EXPECT_FALSE(system.factorize(rank_one, 2));
+  EXPECT_FALSE(system.factorize(indefinite, 2));
+  EXPECT_FALSE(system.factorize(zero, 1));
+  EXPECT_TRUE(system.factorize(std::vector<double>{2.0}, 1));
+}
+
+TEST(Six, TurnedMatrixTurnsPairs) {
+  const auto values = definite_matrix(6);
+  Matrix6 matrix;
+  std::ranges::copy(values, matrix.component.begin());
+  const auto q = rotation_matrix(exponential({{0.3, -0.7, 1.1}}));
+  const Vector6 pair{1.0, -2.0, 0.5, 3.0, 0.25, -1.5};
+  const auto back = pair_of(transpose(q) * pair.translation(), transpose(q) * pair.rotation());
+  const auto product = matrix * back;
+  const auto expected = pair_of(q * product.translation(), q * product.rotation()), got = turned(q, matrix) * pair;
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(got[i], expected[i], 1e-14 * 6e8);
+}
+
+}  // namespace
+}  // namespace balocco
