@@ -11,120 +11,23 @@
 #include <functional>
 #include <utility>
 
+#include "checkpoint_file.hpp"
 #include "elements/element_type.hpp"
 #include "hdf5_file.hpp"
 #include "hdf5_rows.hpp"
 #include "model/diagnostics.hpp"
 #include "model_digest.hpp"
+#include "model_identity.hpp"
+#include "state_packing.hpp"
 
 namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 5;
-constexpr int body_values = 16;    // position 3, orientation 4, velocity 3, angular velocity 3, rotation 3
-// Multiplier, closed, anchor 3, slip, frictional dissipation, stiff spring, its force, friction 3, implicit spring.
-constexpr int contact_values = 13;
-constexpr int work_values = 2;     // external, damping
+constexpr std::int64_t format_version = 6;
 
 ParallelFile::Layout plain_layout(int columns) {
   return {{static_cast<hsize_t>(columns)}, ParallelFile::Precision::double_, false};
-}
-
-std::array<double, contact_values> pack(const ContactPoint& point) {
-  return {point.multiplier, point.closed, point.anchor[0], point.anchor[1], point.anchor[2], point.slip,
-          point.frictional_dissipation, point.stiff_spring, point.stiff_force, point.stiff_friction[0], point.stiff_friction[1],
-          point.stiff_friction[2], point.implicit_spring};
-}
-
-ContactPoint unpack_contact(const double* v) { return {v[0], v[1], {v[2], v[3], v[4]}, v[5], v[6], v[7], v[8], {v[9], v[10], v[11]}, v[12]}; }
-
-std::array<double, body_values> pack(const RigidBodyState& body) {
-  std::array<double, body_values> values;
-  auto next = std::copy(body.position.begin(), body.position.end(), values.begin());
-  next = std::copy(body.orientation.begin(), body.orientation.end(), next);
-  next = std::copy(body.velocity.begin(), body.velocity.end(), next);
-  next = std::copy(body.angular_velocity.begin(), body.angular_velocity.end(), next);
-  std::copy(body.rotation.begin(), body.rotation.end(), next);
-  return values;
-}
-
-RigidBodyState unpack_body(const double* v) {
-  RigidBodyState body;
-  std::copy_n(v, 3, body.position.begin());
-  std::copy_n(v + 3, 4, body.orientation.begin());
-  std::copy_n(v + 7, 3, body.velocity.begin());
-  std::copy_n(v + 10, 3, body.angular_velocity.begin());
-  std::copy_n(v + 13, 3, body.rotation.begin());
-  return body;
-}
-
-/// The first 3 of 4 values of the nodes held.
-std::vector<double> vectors_of(const std::vector<double>& nodal, const std::vector<std::int32_t>& nodes) {
-  std::vector<double> values(nodes.size() * 3, 0.0);
-  for (std::size_t i = 0; i < nodes.size() && !nodal.empty(); ++i) {
-    std::copy_n(nodal.begin() + static_cast<std::ptrdiff_t>(nodes[i]) * 4, 3, values.begin() + i * 3);
-  }
-  return values;
-}
-
-/// What nodes that turn have beside positions and velocities: orientation 4, angular velocity 3, rotation 3.
-constexpr int rotation_values = 10;
-
-std::vector<double> rotations_of(const State& state, const std::vector<std::int32_t>& nodes) {
-  std::vector<double> values(nodes.size() * rotation_values, 0.0);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto at = static_cast<std::ptrdiff_t>(nodes[i]) * 4;
-    if (at >= std::ssize(state.orientation)) continue;
-    auto next = std::copy_n(state.orientation.begin() + at, 4, values.begin() + i * rotation_values);
-    next = std::copy_n(state.angular_velocity.begin() + at, 3, next);
-    std::copy_n(state.rotation.begin() + at, 3, next);
-  }
-  return values;
-}
-
-void set_rotations(const std::vector<std::int32_t>& nodes, std::span<const double> values, State& state) {
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto at = static_cast<std::ptrdiff_t>(nodes[i]) * 4;
-    if (at >= std::ssize(state.orientation)) continue;
-    const double* const own = values.data() + i * rotation_values;
-    std::copy_n(own, 4, state.orientation.begin() + at);
-    std::copy_n(own + 4, 3, state.angular_velocity.begin() + at);
-    std::copy_n(own + 7, 3, state.rotation.begin() + at);
-  }
-}
-
-/// History of the elements held in a table, `columns` an element (shorter histories end in zeros).
-std::vector<double> histories_of(const TableRows& rows, const State& state, int columns) {
-  std::vector<double> values(rows.exchange.held() * columns, 0.0);
-  std::size_t first = 0;
-  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
-    const ElementGroup& group = *rows.groups[g];
-    const auto& history = state.element_history[rows.group_index[g]];
-    for (int k = 0; k < group.history_size(); ++k) {
-      for (std::int32_t e = 0; e < group.size(); ++e) {
-        values[(first + e) * columns + k] = history[static_cast<std::size_t>(k) * group.padded_size() + e];
-      }
-    }
-    first += group.size();
-  }
-  return values;
-}
-
-void set_histories(const TableRows& rows, std::span<const double> values, int columns, State& state) {
-  std::size_t first = 0;
-  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
-    const ElementGroup& group = *rows.groups[g];
-    auto& history = state.element_history[rows.group_index[g]];
-    history.resize(static_cast<std::size_t>(group.history_size()) * group.padded_size());
-    for (int k = 0; k < group.history_size(); ++k) {
-      for (std::int32_t lane = 0; lane < group.padded_size(); ++lane) {
-        const std::int32_t e = std::min(lane, group.size() - 1);  // padded lanes repeat the last element
-        history[static_cast<std::size_t>(k) * group.padded_size() + lane] = values[(first + e) * columns + k];
-      }
-    }
-    first += group.size();
-  }
 }
 
 /// Doubles of history that any element of the table has on any rank.
@@ -134,10 +37,6 @@ int history_columns(const TableRows& rows, const Communicator& communicator) {
   return static_cast<int>(communicator.maximum(columns));
 }
 
-std::string history_path(const Model& model, const TableRows& rows) {
-  return "history_" + model.elements[rows.table].type->name;
-}
-
 /// Upper bound of the size of a checkpoint.
 std::size_t checkpoint_bytes(const Model& model, const Communicator& communicator, ElementGroups groups) {
   std::size_t values = static_cast<std::size_t>(model.nodes.size()) * (6 + work_values + rotation_values);
@@ -145,7 +44,9 @@ std::size_t checkpoint_bytes(const Model& model, const Communicator& communicato
     values += static_cast<std::size_t>(rows.exchange.total()) * history_columns(rows, communicator);
   }
   // Slave nodes of a pair and nodes of rigid bodies are at most all nodes each.
-  values += static_cast<std::size_t>(model.nodes.size()) * (model.contact_pairs.size() * contact_values + 5);
+  values += static_cast<std::size_t>(model.nodes.size()) * (model.contact_pairs.size() * (contact_values + 1) + 5);
+  values += 4 * static_cast<std::size_t>(model.nodes.size());  // identity
+  for (const auto& table : model.elements) values += 3 * static_cast<std::size_t>(table.size());
   return values * sizeof(double) + (1 << 20);
 }
 
@@ -168,7 +69,7 @@ void write_tables(ParallelFile& file, const Model& model, const Communicator& co
   write("work", nodes.exchange, std::move(work), work_values);
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
     const int columns = history_columns(rows, communicator);
-    if (columns > 0) write(history_path(model, rows), rows.exchange, histories_of(rows, state, columns), columns);
+    if (columns > 0) write(history_path(model.elements[rows.table].type->name), rows.exchange, histories_of(rows, state, columns), columns);
   }
   for (std::int32_t pair = 0; pair < static_cast<std::int32_t>(model.contact_pairs.size()); ++pair) {
     const ContactRows rows = make_contact_rows(model, communicator, domain, pair, Copies::owned);
@@ -232,6 +133,7 @@ void write_header(const std::string& path, const Model& model, const State& stat
     file.write("/multipliers", {rows.multipliers.size(), 1}, rows.multipliers);
     file.write("/implied_rows", {rows.implied.size(), 1}, rows.implied);
   }
+  write_identity(file, model);
   file.set_attribute("/", "format_version", format_version);
   file.set_attribute("/", "deck_sha256", model.deck_sha256);
   for (const auto& [part, digest] : model_digests(model)) file.set_attribute("/", "digest of " + part, digest);
@@ -252,23 +154,8 @@ void write_header(const std::string& path, const Model& model, const State& stat
   file.close();
 }
 
-std::unique_ptr<Hdf5File> open_checkpoint(const std::string& path) {
-  auto file = open_existing(path);
-  const std::string format = file->has_attribute("/", "format") ? file->text_attribute("/", "format") : "";
-  if (format == "balocco checkpoint") return file;
-  throw InputError(fmt::format("{}: error: {}; restart from a whole JOB.ckpt.h5, or run without --restart", path,
-                               format == "balocco" ? "this is a results file, not a checkpoint"
-                                                   : "not a checkpoint of Balocco, or one that was not finished"));
-}
-
-void refuse_other_versions(const Hdf5File& file, const std::string& path) {
-  if (file.integer_attribute("/", "format_version") == format_version) return;
-  throw InputError(fmt::format("{}: error: checkpoint of another version of Balocco; restart with that version", path));
-}
-
 /// Everything stands as at the start of a job, but for what the steps before have made of it.
 void read_foreign_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
-  refuse_other_versions(file, path);
   for (const auto& [part, digest] : model_digests(model)) {
     const std::string attribute = "digest of " + part;
     if (file.has_attribute("/", attribute) && file.text_attribute("/", attribute) == digest) continue;
@@ -283,7 +170,6 @@ void read_foreign_header(const Hdf5File& file, const std::string& path, const Mo
 }
 
 void read_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
-  refuse_other_versions(file, path);
   if (file.text_attribute("/", "deck_sha256") != model.deck_sha256) {
     throw InputError(fmt::format("{}: error: checkpoint of another deck than {}; restart with the deck as it was, or run "
                                  "without --restart",
@@ -319,14 +205,6 @@ void read_bodies(const Hdf5File& file, State& state) {
   }
 }
 
-void set_vectors(const std::vector<std::int32_t>& nodes, std::span<const double> values, std::size_t count,
-                 std::vector<double>& nodal) {
-  nodal.resize(4 * (count + 1), 0.0);
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    std::copy_n(values.begin() + i * 3, 3, nodal.begin() + static_cast<std::ptrdiff_t>(nodes[i]) * 4);
-  }
-}
-
 void read_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
                  ElementGroups groups, State& state) {
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::all);
@@ -345,7 +223,7 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
   state.element_history.resize(groups.size());
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
     const int columns = history_columns(rows, communicator);
-    if (columns > 0) set_histories(rows, read(history_path(model, rows), rows.exchange, columns), columns, state);
+    if (columns > 0) set_histories(rows, read(history_path(model.elements[rows.table].type->name), rows.exchange, columns), columns, state);
   }
   state.contact.resize(model.contact_pairs.size());
   for (std::int32_t pair = 0; pair < static_cast<std::int32_t>(model.contact_pairs.size()); ++pair) {
@@ -362,9 +240,6 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
 void read_all(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain, ElementGroups groups,
               State& state, void (*header)(const Hdf5File&, const std::string&, const Model&, State&)) {
   communicator.together([&] {
-    if (!std::filesystem::exists(path)) {
-      throw InputError(fmt::format("{}: error: no checkpoint to go on from; run without --restart or --import", path));
-    }
     const auto file = open_checkpoint(path);
     header(*file, path, model, state);
     read_bodies(*file, state);
@@ -375,6 +250,22 @@ void read_all(const std::string& path, const Model& model, const Communicator& c
 }
 
 }  // namespace
+
+std::string history_path(const std::string& element_type) { return "history_" + element_type; }
+
+std::unique_ptr<Hdf5File> open_checkpoint(const std::string& path) {
+  if (!std::filesystem::exists(path))
+    throw InputError(fmt::format("{}: error: no checkpoint to go on from; run without --restart or --import", path));
+  auto file = open_existing(path);
+  const std::string format = file->has_attribute("/", "format") ? file->text_attribute("/", "format") : "";
+  if (format != "balocco checkpoint")
+    throw InputError(fmt::format("{}: error: {}; restart from a whole JOB.ckpt.h5, or run without --restart", path,
+                                 format == "balocco" ? "this is a results file, not a checkpoint"
+                                                     : "not a checkpoint of Balocco, or one that was not finished"));
+  if (file->integer_attribute("/", "format_version") != format_version)
+    throw InputError(fmt::format("{}: error: checkpoint of another version of Balocco; restart with that version", path));
+  return file;
+}
 
 void write_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
                       ElementGroups groups, const State& state, bool step_finished) {

@@ -20,6 +20,7 @@
 #include "procedures.hpp"
 #include "results_diff.hpp"
 #include "signals.hpp"
+#include "state_import.hpp"
 
 namespace balocco {
 namespace {
@@ -55,6 +56,26 @@ ReadResult read_whole(const Command& command, const FileLoader& loader) {
   return read_deck(command.deck, loader, {.ignored_keywords = command.ignored_keywords});
 }
 
+/// Whole, or what *IMPORT names.
+void start_from_another_job(const Command& command, Analysis& analysis) {
+  const auto arguments = [&](auto import) {
+    return import(command.import_from, analysis.model, analysis.communicator, analysis.domain, analysis.element_groups, analysis.current);
+  };
+  if (analysis.model.state_import) {
+    const auto summary = arguments(import_state);
+    if (analysis.communicator.is_root()) fmt::print("{}\n", summary);
+  } else {
+    arguments(import_checkpoint);
+  }
+  analysis.take_up_checkpoint();
+}
+
+void refuse_import_from_nowhere(const Command& command, const Model& model) {
+  if (model.state_import && command.import_from.empty() && !command.restart)
+    throw InputError(fmt::format("{}: error: *IMPORT: the job to start from is not said; run with --import OLD.ckpt.h5",
+                                 model.where(model.state_import->location)));
+}
+
 ExitStatus run(const Command& command, const Communicator& communicator) {
   const auto [model, warnings] = read_whole(command, broadcasting_loader(communicator));
   if (model.steps.empty())
@@ -66,6 +87,7 @@ ExitStatus run(const Command& command, const Communicator& communicator) {
                communicator.size() == 1 ? "" : "s", model.nodes.size(), model.steps.size());
     std::fflush(stdout);
   }
+  refuse_import_from_nowhere(command, model);
   install_signal_handlers();
 
   Analysis analysis(model, communicator);
@@ -74,8 +96,7 @@ ExitStatus run(const Command& command, const Communicator& communicator) {
     read_checkpoint(paths.checkpoint(), model, communicator, analysis.domain, analysis.element_groups, analysis.current);
     analysis.take_up_checkpoint();
   } else if (!command.import_from.empty()) {
-    import_checkpoint(command.import_from, model, communicator, analysis.domain, analysis.element_groups, analysis.current);
-    analysis.take_up_checkpoint();
+    start_from_another_job(command, analysis);
   }
   JobObserver observer(model, communicator, analysis.domain, paths, command.restart);
   try {
@@ -190,7 +211,7 @@ int dispatch(int argc, char** argv) {
   run_command->add_option("deck", command.deck, "Abaqus-style deck")->required();
   run_command->add_option("--output", command.output, "Folder of the results (made if absent)");
   auto* restart = run_command->add_flag("--restart", command.restart, "Go on from JOB.ckpt.h5 in the output folder, on any number of ranks");
-  run_command->add_option("--import", command.import_from, "Start from where another job with the same model ended: its JOB.ckpt.h5")
+  run_command->add_option("--import", command.import_from, "Start from where another job ended: its JOB.ckpt.h5 (the whole model, or what *IMPORT names)")
       ->excludes(restart);
   run_command->add_option("--until", command.last_step, "Stop after the step of this name");
   run_command->add_option("--ignore", command.ignored_keywords, "Skip this keyword with a warning (repeatable)");

@@ -262,6 +262,14 @@ struct Units {
   std::string length, mass, time;  // empty: not declared
 };
 
+/// What starts from the last state of another job (*IMPORT); everything else starts as the deck says.
+struct StateImport {
+  std::optional<std::int32_t> step;   // number of the step that the state is of
+  std::vector<ElementRef> elements;   // sorted
+  std::vector<std::int32_t> nodes;    // rows, sorted: those of the elements among them
+  Location location;
+};
+
 struct Model {
   std::string name;  // the job's name: the deck's file name without folder and extension
   std::string heading;
@@ -287,6 +295,7 @@ struct Model {
   std::vector<ContactPair> contact_pairs;
   std::vector<InitialVelocity> initial_velocities;
   std::vector<InitialField> initial_fields;
+  std::optional<StateImport> state_import;
   std::vector<Step> steps;
 
   /// The last step before `step` that changed the state: what is not said anew goes on from it. -1: none.

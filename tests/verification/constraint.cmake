@@ -5,7 +5,9 @@ foreach(case masses_on_links falling_chain four_bar universal_joint coupled_tip 
                    ${CMAKE_CURRENT_BINARY_DIR}/constraint_${case})
   set_tests_properties(constraint_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
 endforeach()
-add_test(NAME import_driving_from_an_equilibrium
-         COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/import_cases.py driving_from_an_equilibrium $<TARGET_FILE:balocco>
-                 ${CMAKE_CURRENT_BINARY_DIR}/import_driving_from_an_equilibrium)
-set_tests_properties(import_driving_from_an_equilibrium PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
+foreach(case driving_from_an_equilibrium importing_parts)
+  add_test(NAME import_${case}
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/import_cases.py ${case} $<TARGET_FILE:balocco>
+                   ${CMAKE_CURRENT_BINARY_DIR}/import_${case})
+  set_tests_properties(import_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
+endforeach()

@@ -1,0 +1,17 @@
+// What all readers of checkpoints begin with.
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "hdf5_file.hpp"
+
+namespace balocco {
+
+/// @throws InputError if there is none, or it is not one, not whole, or of another version.
+std::unique_ptr<Hdf5File> open_checkpoint(const std::string& path);
+
+/// Name of the dataset with the histories of elements of a type.
+std::string history_path(const std::string& element_type);
+
+}  // namespace balocco

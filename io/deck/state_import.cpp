@@ -1,0 +1,82 @@
+// *IMPORT, *IMPORT ELSET, *IMPORT NSET: what starts from the last state of another job. The mesh itself stands in the deck.
+#include <algorithm>
+
+#include "deck/builder.hpp"
+#include "deck/register.hpp"
+#include "elements/element_type.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+StateImport& state_import(Builder& builder, const Block& block) {
+  auto& import = builder.model.state_import;
+  if (!import) import = StateImport{.step = {}, .elements = {}, .nodes = {}, .location = block.location};
+  return *import;
+}
+
+template <class Members>
+void sort_members(Members& members) {
+  std::ranges::sort(members);
+  members.erase(std::unique(members.begin(), members.end()), members.end());
+}
+
+void add_elements(Builder& builder, const Block& block, StateImport& import) {
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    for (int field = 0; field < row.size(); ++field)
+      if (row.has(field)) builder.elements_of(row.text(field), block, line.location, import.elements);
+  }
+  sort_members(import.elements);
+  for (const auto& element : import.elements) {
+    const auto& table = builder.model.elements[element.table];
+    const auto first = table.connectivity.begin() + static_cast<std::ptrdiff_t>(element.row) * table.type->nodes;
+    import.nodes.insert(import.nodes.end(), first, first + table.type->nodes);
+  }
+  sort_members(import.nodes);
+}
+
+void read_import(Builder& builder, const Block& block) {
+  if (block.has("STATE") && block.value("STATE") == "NO")
+    builder.error(block, block.location,
+                  "STATE=NO is not supported: elements here keep the configuration in which they have no stress; import with STATE=YES");
+  if (block.value("UPDATE") == "YES")
+    builder.error(block, block.location,
+                  "UPDATE=YES is not supported: elements here keep their reference configuration, so that strains go on and stresses are "
+                  "exact; import with UPDATE=NO");
+  for (const char* parameter : {"INCREMENT", "INTERVAL", "ITERATION"})
+    if (block.has(parameter))
+      builder.error(block, block.location,
+                    std::string(parameter) + ": a checkpoint holds the last state of its job alone; leave it out, or end that job there");
+  if (block.lines.empty()) builder.error(block, block.location, "sets of elements to import are missing; name them on data lines");
+  auto& import = state_import(builder, block);
+  if (block.has("STEP")) import.step = static_cast<std::int32_t>(block.integer("STEP", 0));
+  add_elements(builder, block, import);
+}
+
+void read_elements(Builder& builder, const Block& block) { add_elements(builder, block, state_import(builder, block)); }
+
+void read_nodes(Builder& builder, const Block& block) {
+  auto& import = state_import(builder, block);
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    for (int field = 0; field < row.size(); ++field)
+      if (row.has(field)) builder.nodes_of(row.text(field), block, line.location, import.nodes);
+  }
+  sort_members(import.nodes);
+}
+
+const RegisterKeyword import_keyword({
+    .keyword = "IMPORT",
+    .phase = Phase::constraints,
+    .parameters = {choice("STATE", {"YES", "NO"}), required(choice("UPDATE", {"YES", "NO"})), integer("STEP"), integer("INCREMENT"),
+                   integer("INTERVAL"), integer("ITERATION")},
+    .handler = read_import,
+});
+
+const RegisterKeyword import_elset({.keyword = "IMPORT ELSET", .phase = Phase::constraints, .handler = read_elements});
+const RegisterKeyword import_nset({.keyword = "IMPORT NSET", .phase = Phase::constraints, .handler = read_nodes});
+
+}  // namespace
+
+}  // namespace balocco::deck

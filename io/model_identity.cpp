@@ -1,0 +1,117 @@
+#include "model_identity.hpp"
+
+#include <fmt/format.h>
+
+#include "constraints/constraint.hpp"
+#include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
+#include "model_digest.hpp"
+
+namespace balocco {
+
+namespace {
+
+std::string name_of_pair(const std::string& slave, const std::string& master) { return slave + ", " + master; }
+
+std::int64_t as_stored(std::uint64_t digest) { return static_cast<std::int64_t>(digest); }
+
+void write_elements(const Hdf5File& file, const Model& model) {
+  file.create_group("/identity/elements");
+  for (const auto& table : model.elements) {
+    std::vector<std::int64_t> values;
+    for (std::int32_t row = 0; row < table.size(); ++row)
+      values.insert(values.end(), {table.id[row], as_stored(digest_of_element(model, table, row)),
+                                   as_stored(digest_of_section(model, model.sections[table.section[row]]))});
+    file.write("/identity/elements/" + std::string(table.type->name), {values.size() / 3, 3}, values);
+  }
+}
+
+void write_contact_pairs(const Hdf5File& file, const Model& model) {
+  file.create_group("/identity/contact");
+  for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair) {
+    const auto& slave = model.surfaces[model.contact_pairs[pair].slave];
+    std::vector<std::int64_t> nodes;
+    for (const auto row : surface_nodes(model, slave)) nodes.push_back(model.nodes.id[row]);
+    file.write(fmt::format("/identity/contact/{}", pair), {nodes.size(), 1}, nodes);
+    file.set_attribute("/identity/contact", fmt::format("surfaces {}", pair),
+                       name_of_pair(slave.name, model.surfaces[model.contact_pairs[pair].master].name));
+  }
+}
+
+}  // namespace
+
+void write_identity(const Hdf5File& file, const Model& model) {
+  file.create_group("/identity");
+  const std::vector<std::int64_t> ids(model.nodes.id.begin(), model.nodes.id.end());
+  std::vector<double> coordinates;
+  for (const auto& point : model.nodes.coordinates) coordinates.insert(coordinates.end(), point.begin(), point.end());
+  file.write("/identity/node_id", {ids.size(), 1}, ids);
+  file.write("/identity/coordinates", {ids.size(), 3}, coordinates);
+  write_elements(file, model);
+  write_contact_pairs(file, model);
+  std::vector<std::int64_t> references, constraints;
+  for (const auto& body : model.rigid_bodies) references.push_back(model.nodes.id[body.reference_node]);
+  file.write("/identity/rigid_reference", {references.size(), 1}, references);
+  for (const auto& constraint : make_constraints(model))
+    constraints.insert(constraints.end(), {as_stored(digest_of_constraint(model, *constraint)), constraint->rows()});
+  file.write("/identity/constraints", {constraints.size() / 2, 2}, constraints);
+}
+
+ModelIdentity::ModelIdentity(const Hdf5File& file) : node_id_(file.read_integers("/identity/node_id")), coordinates_(file.read("/identity/coordinates")) {
+  for (std::size_t row = 0; row < node_id_.size(); ++row) row_of_node_.emplace(node_id_[row], row);
+  for (const auto& type : file.children("/identity/elements")) {
+    const auto values = file.read_integers("/identity/elements/" + type);
+    for (std::size_t row = 0; row < values.size() / 3; ++row)
+      elements_[type].emplace(values[3 * row], Element{static_cast<std::int64_t>(row), static_cast<std::uint64_t>(values[3 * row + 1]),
+                                                       static_cast<std::uint64_t>(values[3 * row + 2])});
+  }
+  for (const auto& pair : file.children("/identity/contact")) {
+    ContactPair known{.index = std::stoll(pair), .row_of_slave = {}};
+    const auto nodes = file.read_integers("/identity/contact/" + pair);
+    for (std::size_t row = 0; row < nodes.size(); ++row) known.row_of_slave.emplace(nodes[row], row);
+    contact_pairs_.emplace(file.text_attribute("/identity/contact", "surfaces " + pair), std::move(known));
+  }
+  const auto read = [&](const char* path) { return file.exists(path) ? file.read_integers(path) : std::vector<std::int64_t>{}; };
+  const auto references = read("/identity/rigid_reference");
+  for (std::size_t body = 0; body < references.size(); ++body) rigid_body_.emplace(references[body], body);
+  const auto constraints = read("/identity/constraints");
+  std::int64_t first = 0;
+  for (std::size_t i = 0; i < constraints.size() / 2; ++i) {
+    constraints_.emplace(static_cast<std::uint64_t>(constraints[2 * i]), first);
+    first += constraints[2 * i + 1];
+  }
+}
+
+std::int64_t ModelIdentity::find(const std::map<std::int64_t, std::int64_t>& rows, std::int64_t id) {
+  const auto found = rows.find(id);
+  return found == rows.end() ? -1 : found->second;
+}
+
+Point ModelIdentity::coordinates(std::int64_t row) const {
+  const auto at = static_cast<std::size_t>(3 * row);
+  return {coordinates_[at], coordinates_[at + 1], coordinates_[at + 2]};
+}
+
+std::int64_t ModelIdentity::elements(const std::string& type) const {
+  const auto table = elements_.find(type);
+  return table == elements_.end() ? 0 : static_cast<std::int64_t>(table->second.size());
+}
+
+const ModelIdentity::Element* ModelIdentity::element(const std::string& type, std::int64_t id) const {
+  const auto table = elements_.find(type);
+  if (table == elements_.end()) return nullptr;
+  const auto found = table->second.find(id);
+  return found == table->second.end() ? nullptr : &found->second;
+}
+
+const ModelIdentity::ContactPair* ModelIdentity::contact_pair(const std::string& slave, const std::string& master) const {
+  const auto found = contact_pairs_.find(name_of_pair(slave, master));
+  return found == contact_pairs_.end() ? nullptr : &found->second;
+}
+
+std::int64_t ModelIdentity::constraint(std::uint64_t digest) const {
+  const auto found = constraints_.find(digest);
+  return found == constraints_.end() ? -1 : found->second;
+}
+
+}  // namespace balocco

@@ -1,0 +1,105 @@
+#include "state_packing.hpp"
+
+#include <algorithm>
+
+namespace balocco {
+
+std::array<double, contact_values> pack(const ContactPoint& point) {
+  return {point.multiplier, point.closed, point.anchor[0], point.anchor[1], point.anchor[2], point.slip,
+          point.frictional_dissipation, point.stiff_spring, point.stiff_force, point.stiff_friction[0], point.stiff_friction[1],
+          point.stiff_friction[2], point.implicit_spring};
+}
+
+ContactPoint unpack_contact(const double* v) { return {v[0], v[1], {v[2], v[3], v[4]}, v[5], v[6], v[7], v[8], {v[9], v[10], v[11]}, v[12]}; }
+
+std::array<double, body_values> pack(const RigidBodyState& body) {
+  std::array<double, body_values> values;
+  auto next = std::copy(body.position.begin(), body.position.end(), values.begin());
+  next = std::copy(body.orientation.begin(), body.orientation.end(), next);
+  next = std::copy(body.velocity.begin(), body.velocity.end(), next);
+  next = std::copy(body.angular_velocity.begin(), body.angular_velocity.end(), next);
+  std::copy(body.rotation.begin(), body.rotation.end(), next);
+  return values;
+}
+
+RigidBodyState unpack_body(const double* v) {
+  RigidBodyState body;
+  std::copy_n(v, 3, body.position.begin());
+  std::copy_n(v + 3, 4, body.orientation.begin());
+  std::copy_n(v + 7, 3, body.velocity.begin());
+  std::copy_n(v + 10, 3, body.angular_velocity.begin());
+  std::copy_n(v + 13, 3, body.rotation.begin());
+  return body;
+}
+
+std::vector<double> vectors_of(const std::vector<double>& nodal, const std::vector<std::int32_t>& nodes) {
+  std::vector<double> values(nodes.size() * 3, 0.0);
+  for (std::size_t i = 0; i < nodes.size() && !nodal.empty(); ++i) {
+    std::copy_n(nodal.begin() + static_cast<std::ptrdiff_t>(nodes[i]) * 4, 3, values.begin() + i * 3);
+  }
+  return values;
+}
+
+std::vector<double> rotations_of(const State& state, const std::vector<std::int32_t>& nodes) {
+  std::vector<double> values(nodes.size() * rotation_values, 0.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(nodes[i]) * 4;
+    if (at >= std::ssize(state.orientation)) continue;
+    auto next = std::copy_n(state.orientation.begin() + at, 4, values.begin() + i * rotation_values);
+    next = std::copy_n(state.angular_velocity.begin() + at, 3, next);
+    std::copy_n(state.rotation.begin() + at, 3, next);
+  }
+  return values;
+}
+
+void set_rotations(const std::vector<std::int32_t>& nodes, std::span<const double> values, State& state) {
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto at = static_cast<std::ptrdiff_t>(nodes[i]) * 4;
+    if (at >= std::ssize(state.orientation)) continue;
+    const double* const own = values.data() + i * rotation_values;
+    std::copy_n(own, 4, state.orientation.begin() + at);
+    std::copy_n(own + 4, 3, state.angular_velocity.begin() + at);
+    std::copy_n(own + 7, 3, state.rotation.begin() + at);
+  }
+}
+
+std::vector<double> histories_of(const TableRows& rows, const State& state, int columns) {
+  std::vector<double> values(rows.exchange.held() * columns, 0.0);
+  std::size_t first = 0;
+  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+    const ElementGroup& group = *rows.groups[g];
+    const auto& history = state.element_history[rows.group_index[g]];
+    for (int k = 0; k < group.history_size(); ++k) {
+      for (std::int32_t e = 0; e < group.size(); ++e) {
+        values[(first + e) * columns + k] = history[static_cast<std::size_t>(k) * group.padded_size() + e];
+      }
+    }
+    first += group.size();
+  }
+  return values;
+}
+
+void set_histories(const TableRows& rows, std::span<const double> values, int columns, State& state) {
+  std::size_t first = 0;
+  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+    const ElementGroup& group = *rows.groups[g];
+    auto& history = state.element_history[rows.group_index[g]];
+    history.resize(static_cast<std::size_t>(group.history_size()) * group.padded_size());
+    for (int k = 0; k < group.history_size(); ++k) {
+      for (std::int32_t lane = 0; lane < group.padded_size(); ++lane) {
+        const std::int32_t e = std::min(lane, group.size() - 1);  // padded lanes repeat the last element
+        history[static_cast<std::size_t>(k) * group.padded_size() + lane] = values[(first + e) * columns + k];
+      }
+    }
+    first += group.size();
+  }
+}
+
+void set_vectors(const std::vector<std::int32_t>& nodes, std::span<const double> values, std::size_t count, std::vector<double>& nodal) {
+  nodal.resize(4 * (count + 1), 0.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    std::copy_n(values.begin() + i * 3, 3, nodal.begin() + static_cast<std::ptrdiff_t>(nodes[i]) * 4);
+  }
+}
+
+}  // namespace balocco

@@ -1,0 +1,40 @@
+// State as rows of doubles, as checkpoints keep it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hdf5_model_rows.hpp"
+#include "model/state.hpp"
+
+namespace balocco {
+
+/// Position 3, orientation 4, velocity 3, angular velocity 3, rotation 3.
+constexpr int body_values = 16;
+/// Multiplier, closed, anchor 3, slip, frictional dissipation, stiff spring, its force, friction 3, implicit spring.
+constexpr int contact_values = 13;
+/// External, damping.
+constexpr int work_values = 2;
+/// What nodes that turn have beside positions and velocities: orientation 4, angular velocity 3, rotation 3.
+constexpr int rotation_values = 10;
+
+std::array<double, contact_values> pack(const ContactPoint& point);
+ContactPoint unpack_contact(const double* values);
+std::array<double, body_values> pack(const RigidBodyState& body);  // without its nodes
+RigidBodyState unpack_body(const double* values);
+
+/// The first 3 of 4 values of the nodes held, and back; `count`: nodes of the rank.
+std::vector<double> vectors_of(const std::vector<double>& nodal, const std::vector<std::int32_t>& nodes);
+void set_vectors(const std::vector<std::int32_t>& nodes, std::span<const double> values, std::size_t count, std::vector<double>& nodal);
+
+/// Those of the nodes that turn; the others have zeros.
+std::vector<double> rotations_of(const State& state, const std::vector<std::int32_t>& nodes);
+void set_rotations(const std::vector<std::int32_t>& nodes, std::span<const double> values, State& state);
+
+/// History of the elements held in a table, `columns` an element (shorter histories end in zeros).
+std::vector<double> histories_of(const TableRows& rows, const State& state, int columns);
+void set_histories(const TableRows& rows, std::span<const double> values, int columns, State& state);
+
+}  // namespace balocco
