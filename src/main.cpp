@@ -7,6 +7,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "builders/car/car_builder.hpp"
 #include "builders/tyre_builder.hpp"
 #include "checkpoint.hpp"
 #include "communicator.hpp"
@@ -176,6 +177,15 @@ int build_tyre_deck(const Command& command) {
   return completed;
 }
 
+int build_car_deck(const Command& command) {
+  const auto text = file_loader()(command.spec);
+  if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of a car's description (TOML)", command.spec));
+  std::string report;
+  write_text(command.model_file, build_car(*text, command.spec, report));
+  fmt::print("{}", report);
+  return completed;
+}
+
 int show_info(const Command& command) {
   fmt::print("{}", describe_results(command.results));
   return completed;
@@ -226,6 +236,10 @@ int dispatch(int argc, char** argv) {
   tyre_command->add_option("--output", command.model_file, "Deck to write")->required();
   tyre_command->add_option("--picture", command.picture, "Drawing of the section to write (SVG)");
 
+  auto* car_command = app.add_subcommand("car", "Build a car deck from its description");
+  car_command->add_option("spec", command.spec, "Car description (TOML)")->required();
+  car_command->add_option("--output", command.model_file, "Deck to write")->required();
+
   auto* info_command = app.add_subcommand("info", "Show what a result file holds");
   info_command->add_option("results", command.results, "JOB.h5")->required();
 
@@ -249,6 +263,7 @@ int dispatch(int argc, char** argv) {
   if (*check_command) return alone(check, command);
   if (*diff_command) return alone(show_difference, command);
   if (*tyre_command) return alone(build_tyre_deck, command);
+  if (*car_command) return alone(build_car_deck, command);
   return alone(show_info, command);
 }
 

@@ -1,0 +1,112 @@
+// The car's body: curves, sheets, welds as small systems of their own, one connected body with both sides alike.
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <set>
+#include <sstream>
+
+#include "builders/car/body_parts.hpp"
+#include "builders/car/car_builder.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco::car {
+namespace {
+
+std::string main_spec() {
+  std::ifstream file(BALOCCO_CAR_SPEC);
+  std::stringstream text;
+  text << file.rdbuf();
+  return text.str();
+}
+
+std::string changed(std::string text, const std::string& from, const std::string& to) {
+  const auto at = text.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  return text.replace(at, from.size(), to);
+}
+
+TEST(CarCurve, GraphPassesItsRowsAndIsExactForParabolas) {
+  const Graph parabola({{0.0, 0.0}, {1.0, 1.0}, {3.0, 9.0}, {4.0, 16.0}});
+  EXPECT_DOUBLE_EQ(parabola(3.0), 9.0);
+  EXPECT_NEAR(parabola(2.0), 4.0, 1e-12);  // slopes at 1 and 3 are those of the parabola
+}
+
+TEST(CarCurve, StationsKeepTheBreaksAndTheSize) {
+  const auto all = stations({0.0, 1.0, 3.5}, 0.6);
+  EXPECT_EQ(all.size(), 1u + 2u + 5u);
+  EXPECT_DOUBLE_EQ(all[2], 1.0);
+}
+
+/// A flat sheet of a metre square at a height.
+Sheet flat(const std::string& part, double height) {
+  return sheet_on(part, stations({0.0, 1000.0}, 100.0), stations({100.0, 1100.0}, 100.0), [&](double x, double y) { return Vector{x, y, height}; });
+}
+
+TEST(CarWelds, APartIsInAWeldOnceAndNoNodeInTwoWelds) {
+  BodyMesh mesh;
+  for (const char* part : {"A", "B", "C", "D", "E"}) mesh.add(flat(part, 0.0));
+  for (const auto& [first, second] : {std::pair{"A", "B"}, std::pair{"B", "C"}, std::pair{"C", "D"}, std::pair{"D", "E"}}) mesh.weld(first, second, 1.0, 150.0);
+  std::set<int> seen;
+  for (const auto& weld : mesh.welds()) {
+    EXPECT_LE(weld.size(), 4u);
+    std::set<int> parts;
+    for (const int node : weld) {
+      EXPECT_TRUE(seen.insert(node).second);
+      EXPECT_TRUE(parts.insert(node / 121).second);  // 11 x 11 nodes a part
+    }
+  }
+  EXPECT_TRUE(mesh.loose_parts().empty());
+}
+
+TEST(CarWelds, KeepTheirPitch) {
+  BodyMesh mesh;
+  mesh.add(flat("A", 0.0));
+  mesh.add(flat("B", 1.0));
+  EXPECT_EQ(mesh.weld("A", "B", 5.0, 199.0), 36);  // every second node of eleven, both ways
+  EXPECT_EQ(mesh.weld("A", "B", 0.5, 199.0), 0);
+}
+
+TEST(CarBody, MirrorImagesLieNodeForNode) {
+  BodyMesh mesh;
+  mesh.add_both(flat("A", 3.0));
+  const auto *left = mesh.find("A_LEFT"), *right = mesh.find("A_RIGHT");
+  ASSERT_TRUE(left && right);
+  const auto normal = [&](const Part& part) {
+    const auto& q = part.quadrilaterals[0];
+    const auto& x = mesh.nodes();
+    return cross(x[q[2]] - x[q[0]], x[q[3]] - x[q[1]]);
+  };
+  for (int i = 0; i < left->nodes; ++i) EXPECT_EQ(mesh.nodes()[left->first_node + i][1], -mesh.nodes()[right->first_node + i][1]);
+  EXPECT_GT(normal(*left)[2] * normal(*right)[2], 0.0);
+}
+
+TEST(CarBody, IsOnePieceAtEveryMeshSize) {
+  for (const char* size : {"100.0", "50.0", "20.0"}) {
+    std::string report;
+    EXPECT_NO_THROW(build_car(changed(main_spec(), "mesh_size = 50.0", std::string("mesh_size = ") + size), "car.toml", report)) << size;
+    EXPECT_EQ(report.find("warning"), std::string::npos) << report;
+  }
+}
+
+std::string fault_of(const std::string& from, const std::string& to) {
+  std::string report;
+  try {
+    build_car(changed(main_spec(), from, to), "car.toml", report);
+  } catch (const InputError& error) {
+    EXPECT_EQ(error.messages().size(), 1u) << error.messages().back();
+    return error.messages()[0];
+  }
+  return "";
+}
+
+TEST(CarSpec, FaultsNameLineAndCure) {
+  EXPECT_NE(fault_of("thickness = 0.75", "thickness = -0.75").find("[gauge.panel] thickness"), std::string::npos);
+  EXPECT_NE(fault_of("material = \"high_strength\"", "material = \"high_strenght\"").find("did you mean \"high_strength\"?"), std::string::npos);
+  EXPECT_NE(fault_of("kick_rear = -2020.0", "kick_rear = -1600.0").find("the floor rises backwards"), std::string::npos);
+  EXPECT_NE(fault_of("front_track = 1385.0", "front_track = 1685.0").find("inside the wheel's centre"), std::string::npos);
+  EXPECT_NE(fault_of("parts = [\"STRUT_HOUSE_TOP\", \"STRUT_HOUSE_WALL\"]", "parts = [\"STRUT_HOUSE_TOP\"]").find("no gauge"), std::string::npos);
+  EXPECT_NE(fault_of("dash_x = -430.0", "dash_x = -930.0").find("meet nowhere"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace balocco::car
