@@ -180,9 +180,9 @@ int build_tyre_deck(const Command& command) {
 int build_car_deck(const Command& command) {
   const auto text = file_loader()(command.spec);
   if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of a car's description (TOML)", command.spec));
-  std::string report;
-  write_text(command.model_file, build_car(*text, command.spec, report));
-  fmt::print("{}", report);
+  const auto car = build_car(*text, command.spec, file_loader());
+  write_text(command.model_file, write_deck(car.tyres) + car.text);
+  fmt::print("{}", car.report);
   return completed;
 }
 

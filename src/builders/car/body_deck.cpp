@@ -35,9 +35,7 @@ void write_mount(const CarSpec& spec, const BodyMesh& mesh, const MountSpec& mou
                                  spec.file_name, mount.mass > 0.0 ? "mass" : "mount", mount.name, carriers.size(), mount.reach));
   taken.insert(carriers.begin(), carriers.end());
   const auto name = upper(mount.name);
-  const auto node = deck.next_node();
-  deck.line("*NODE, NSET={}", name);
-  deck.node(node, mount.place);
+  const auto node = deck.named_node(name, mount.place);
   if (mount.mass > 0.0) write_mass(mount, name, node, deck);
   std::vector<std::int64_t> ids;
   for (const int carrier : carriers) ids.push_back(carrier + 1);
@@ -81,6 +79,10 @@ void add_part(const CarSpec& spec, const BodyMesh& mesh, const Part& part, Inert
   }
 }
 
+bool is_rigid(const CarSpec& spec, const Part& part) {
+  return spec.fidelity == "rigid" || (spec.fidelity == "semi-flexible" && !part.gauge.starts_with("STRUT_HOUSE"));
+}
+
 void write_body(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   deck.chapter("BODY IN WHITE: every pressing is a part");
   for (const auto& part : mesh.parts()) {
@@ -97,9 +99,14 @@ void write_body(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   deck.line("*ELSET, ELSET=BODY");
   for (const auto& part : mesh.parts()) deck.line("{}", part.name);
   deck.chapter("SPOT WELDS: the first node carries the others; each weld is a small system of its own");
-  deck.line("*MPC");
-  for (const auto& weld : mesh.welds())
+  if (spec.fidelity != "rigid") deck.line("*MPC");
+  for (auto weld : mesh.welds()) {
+    // Within one rigid body nothing is left to weld: of its nodes one stays, and comes first.
+    const auto rigid = std::ranges::stable_partition(weld, [&](int node) { return is_rigid(spec, mesh.part_of(node)); });
+    const auto inside = weld.size() - rigid.size();
+    if (inside > 1) weld.erase(weld.begin() + 1, weld.begin() + static_cast<std::ptrdiff_t>(inside));
     for (std::size_t i = 1; i < weld.size(); ++i) deck.line("BEAM, {}, {}", weld[i] + 1, weld[0] + 1);
+  }
 }
 
 std::vector<MountSpec> on_both_sides(const std::vector<MountSpec>& mounts) {

@@ -26,6 +26,9 @@ class Inertia {
 
 void add_part(const CarSpec& spec, const BodyMesh& mesh, const Part& part, Inertia& inertia);
 
+/// Whether the chosen fidelity makes the part rigid: all, all but the strut houses, or none.
+bool is_rigid(const CarSpec& spec, const Part& part);
+
 /// Row i of the mesh becomes node i + 1: the body comes first in the deck.
 void write_body(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck);
 /// Masses and mounts; each becomes a node set of one node with its name.

@@ -34,6 +34,7 @@ class BodyMesh {
 
   const std::vector<Vector>& nodes() const { return nodes_; }
   const std::vector<Part>& parts() const { return parts_; }
+  const Part& part_of(int node) const { return parts_[part_of_[node]]; }
   /// Welds of two and more nodes, in the order of making.
   std::vector<Weld> welds() const;
   const Part* find(const std::string& name) const;

@@ -183,6 +183,8 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   CarSpec spec;
   spec.file_name = file_name;
   spec.title = top.text("title", {}, "Car");
+  spec.fidelity = top.text("fidelity", {"complete", "semi-flexible", "rigid"});
+  spec.tyre = top.text("tyre", {});
   spec.mesh_size = top.number("mesh_size", Bounds::between(3.0, 200.0, "mm"));
   spec.weld_pitch = top.number("weld_pitch", Bounds::positive("mm"));
   read_profile(top, spec.profile);
@@ -192,6 +194,7 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   read_gauges(top, spec);
   spec.masses = read_mounts(top, "mass", true);
   spec.mounts = read_mounts(top, "mount", false);
+  read_chassis(top, spec.chassis);
   top.refuse_unknown();
   faults.throw_if_any();
   return spec;

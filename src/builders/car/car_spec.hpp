@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "builders/car/sheet.hpp"
+#include "builders/car/suspension_spec.hpp"
 
 namespace balocco::car {
 
@@ -75,6 +76,8 @@ struct BodySpec {
 
 struct CarSpec {
   std::string file_name, title;
+  std::string fidelity;  // complete, semi-flexible or rigid
+  std::string tyre;      // path of the tyre's description, from the car's
   double mesh_size = 0.0, weld_pitch = 0.0;  // mm
   ProfileSpec profile;
   BodySpec body;
@@ -82,6 +85,7 @@ struct CarSpec {
   std::map<std::string, GaugeSpec> gauges;  // by part, without its side
   std::vector<SheetMaterial> materials;
   std::vector<MountSpec> masses, mounts;
+  ChassisSpec chassis;
 };
 
 /// Members that every body has, in the order of the reader's messages.

@@ -7,16 +7,27 @@
 
 #include "builders/car/body_parts.hpp"
 #include "builders/car/car_builder.hpp"
+#include "builders/car/suspension.hpp"
+#include "builders/car/tyre_placement.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco::car {
 namespace {
 
-std::string main_spec() {
-  std::ifstream file(BALOCCO_CAR_SPEC);
+std::optional<std::string> load(const std::string& path) {
+  std::ifstream file(path);
+  if (!file) return std::nullopt;
   std::stringstream text;
   text << file.rdbuf();
   return text.str();
+}
+
+std::string main_spec() {
+  return *load(BALOCCO_CAR_SPEC);
+}
+
+CarDeck built(const std::string& text) {
+  return build_car(text, BALOCCO_CAR_SPEC, load);
 }
 
 std::string changed(std::string text, const std::string& from, const std::string& to) {
@@ -82,16 +93,14 @@ TEST(CarBody, MirrorImagesLieNodeForNode) {
 
 TEST(CarBody, IsOnePieceAtEveryMeshSize) {
   for (const char* size : {"100.0", "50.0", "20.0"}) {
-    std::string report;
-    EXPECT_NO_THROW(build_car(changed(main_spec(), "mesh_size = 50.0", std::string("mesh_size = ") + size), "car.toml", report)) << size;
+    const auto report = built(changed(main_spec(), "mesh_size = 40.0", std::string("mesh_size = ") + size)).report;
     EXPECT_EQ(report.find("warning"), std::string::npos) << report;
   }
 }
 
 std::string fault_of(const std::string& from, const std::string& to) {
-  std::string report;
   try {
-    build_car(changed(main_spec(), from, to), "car.toml", report);
+    built(changed(main_spec(), from, to));
   } catch (const InputError& error) {
     EXPECT_EQ(error.messages().size(), 1u) << error.messages().back();
     return error.messages()[0];
@@ -106,6 +115,33 @@ TEST(CarSpec, FaultsNameLineAndCure) {
   EXPECT_NE(fault_of("front_track = 1385.0", "front_track = 1685.0").find("inside the wheel's centre"), std::string::npos);
   EXPECT_NE(fault_of("parts = [\"STRUT_HOUSE_TOP\", \"STRUT_HOUSE_WALL\"]", "parts = [\"STRUT_HOUSE_TOP\"]").find("no gauge"), std::string::npos);
   EXPECT_NE(fault_of("dash_x = -430.0", "dash_x = -930.0").find("meet nowhere"), std::string::npos);
+}
+
+TEST(CarSprings, CarryTheSprungWeightAtDesignHeight) {
+  const auto spec = read_car_spec(main_spec(), "car.toml");
+  BodyMesh mesh;
+  const auto sprung = sprung_mass(spec, mesh);
+  const auto weights = corner_weights(spec, sprung);
+  EXPECT_NEAR(2.0 * (weights.front + weights.rear), sprung.mass() * 9.81e-3, 1e-6);
+  EXPECT_NEAR(2.0 * weights.rear * spec.profile.wheelbase, -sprung.mass() * 9.81e-3 * sprung.centre()[0], 1e-3);  // moment about the front axle
+}
+
+TEST(CarTyres, AreFourAlikeAtTheirWheels) {
+  const auto car = built(main_spec());
+  const auto& model = car.tyres;
+  std::vector<Point> middles;
+  for (const auto* wheel : wheel_names)
+    for (const auto& set : model.node_sets)
+      if (set.name == std::string("TYRE_") + wheel) {
+        Point sum{};
+        for (const auto node : set.nodes)
+          for (int c = 0; c < 3; ++c) sum[c] += model.nodes.coordinates[node][c] / static_cast<double>(set.nodes.size());
+        middles.push_back(sum);
+      }
+  ASSERT_EQ(middles.size(), 4u);
+  EXPECT_NEAR(middles[0][1] - middles[1][1], 1385.0, 1e-6);
+  EXPECT_NEAR(middles[0][0] - middles[2][0], 2460.0, 1e-6);
+  EXPECT_EQ(model.contact_pairs.size(), 4u);
 }
 
 }  // namespace

@@ -1,0 +1,145 @@
+#include "builders/car/car_steps.hpp"
+
+namespace balocco::car {
+namespace {
+
+constexpr double gravity = 9.81e-3;  // mm/ms2
+constexpr double period = 1e6;       // ms of a static step: so slow that dampers and rubbers push with nothing
+
+/// Writes the steps of the equilibrium; each says all that acts in it.
+class StepText {
+ public:
+  StepText(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck) : spec_(spec), tyre_(tyre), facts_(facts), deck_(deck) {}
+
+  void seat() {
+    begin("SEAT", 0.25, 0.5);
+    deck_.line("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE");
+    pairs();
+    deck_.line("*BOUNDARY");
+    for (const auto* wheel : wheel_names)
+      for (const auto& [side, sign] : {std::pair{"LEFT", -1.0}, std::pair{"RIGHT", 1.0}})
+        deck_.line("BEAD_{}_{}, 1, 1\nBEAD_{}_{}, 2, 2, {:g}\nBEAD_{}_{}, 3, 3", side, wheel, side, wheel, sign * facts_.seat_shift, side, wheel);
+    hold_hubs(1, 6);
+    hold_roads(0.0);
+    hold_body();
+    inflate(tyre_.statics.seating_pressure);
+    end();
+  }
+
+  void inflate_tyres() {
+    begin("INFLATE", 0.1, 0.25);
+    for (const auto* wheel : wheel_names)
+      for (const auto* side : {"LEFT", "RIGHT"}) deck_.line("*RIGID BODY, REF NODE=HUB_{}, TIE NSET=BEAD_{}_{}", wheel, side, wheel);
+    deck_.line("*BOUNDARY, OP=NEW");
+    hold_hubs(1, 6);
+    hold_roads(0.0);
+    hold_body();
+    inflate(tyre_.statics.pressure);
+    end();
+  }
+
+  void weigh() {
+    begin("GRAVITY", 0.1, 0.25);
+    deck_.line("*BOUNDARY, OP=NEW");
+    hold_hubs(1, 3);
+    hold_hubs(5, 5);
+    hold_roads(0.0);
+    inflate(tyre_.statics.pressure);
+    weight();
+    end();
+  }
+
+  /// The road comes up to where the tyres touch it under the design height's load.
+  void touch() {
+    begin("CONTACT", 0.1, 0.2);
+    deck_.line("*MODEL CHANGE, TYPE=CONTACT PAIR, ADD");
+    pairs();
+    deck_.line("*BOUNDARY, OP=NEW");
+    hold_hubs(1, 3);
+    hold_hubs(5, 5);
+    hold_roads(rise());
+    inflate(tyre_.statics.pressure);
+    weight();
+    end();
+  }
+
+  /// The wheels are braked; all else of the car is held by friction alone.
+  void stand() {
+    begin("STAND", 0.1, 0.25);
+    deck_.line("*BOUNDARY, OP=NEW");
+    hold_hubs(5, 5);
+    hold_roads(rise());
+    inflate(tyre_.statics.pressure);
+    weight();
+    deck_.line("*RESTART, WRITE, FREQUENCY=1000000");
+    end();
+  }
+
+ private:
+  double rise() const { return facts_.outer_radius + spec_.chassis.road.clearance - spec_.profile.wheel_height; }
+
+  void begin(const char* name, double first, double largest) {
+    deck_.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}", name, first * period, period, 1e-5 * period, largest * period);
+  }
+  void pairs() {
+    for (const auto* wheel : wheel_names) deck_.line("TREAD_{}, ROAD_{}_SURFACE", wheel, std::string(wheel).ends_with("LEFT") ? "LEFT" : "RIGHT");
+  }
+  void hold_hubs(int first, int last) {
+    for (const auto* wheel : wheel_names) deck_.line("HUB_{}, {}, {}", wheel, first, last);
+  }
+  void hold_roads(double up) {
+    for (const auto* side : {"LEFT", "RIGHT"}) deck_.line("ROAD_{}, 1, 2\nROAD_{}, 3, 3, {:g}\nROAD_{}, 4, 6", side, side, up, side);
+  }
+  void hold_body() {
+    if (spec_.fidelity != "complete") return deck_.line("BODY_REFERENCE, 1, 6");
+    for (const auto* side : {"LEFT", "RIGHT"}) deck_.line("STRUT_MOUNT_FRONT_{}, 1, 3\nSPRING_SEAT_REAR_{}, 1, 3", side, side);
+  }
+  void inflate(double pressure) {
+    deck_.line("*DSLOAD");
+    for (const auto* wheel : wheel_names) deck_.line("LINER_{}, P, {:g}", wheel, pressure);
+  }
+  void weight() { deck_.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity); }
+
+  void end() {
+    deck_.line("*OUTPUT, FIELD, FREQUENCY=1000000\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, FREQUENCY=1");
+    for (const auto* wheel : wheel_names) deck_.line("*NODE OUTPUT, NSET=HUB_{}\nU, UR, RF", wheel);
+    for (const auto* side : {"LEFT", "RIGHT"}) deck_.line("*NODE OUTPUT, NSET=ROAD_{}\nU3, RF", side);
+    for (const auto* side : {"LEFT", "RIGHT"})
+      deck_.line("*NODE OUTPUT, NSET=STRUT_MOUNT_FRONT_{}\nU\n*NODE OUTPUT, NSET=SPRING_SEAT_REAR_{}\nU\n*ELEMENT OUTPUT, ELSET=STRUT_FRONT_{}\nCTF, CU\n*ELEMENT OUTPUT, ELSET=SPRING_REAR_{}\nCTF, CU",
+                 side, side, side, side);
+    for (const auto* wheel : wheel_names) deck_.line("*CONTACT OUTPUT, SLAVE=TREAD_{}, MASTER=ROAD_{}_SURFACE\nCFN, CFT", wheel, std::string(wheel).ends_with("LEFT") ? "LEFT" : "RIGHT");
+    deck_.line("*ENERGY OUTPUT\nALLIE, ALLWK, ETOTAL\n*END STEP");
+  }
+
+  const CarSpec& spec_;
+  const TyreSpec& tyre_;
+  const TyreFacts& facts_;
+  DeckText& deck_;
+};
+
+}  // namespace
+
+void write_fidelity(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
+  deck.chapter("FIDELITY: " + spec.fidelity);
+  if (spec.fidelity == "complete") return;
+  deck.line("*ELSET, ELSET=RIGID_PARTS");
+  Inertia rigid;
+  for (const auto& part : mesh.parts()) {
+    if (!is_rigid(spec, part)) continue;
+    deck.line("{}", part.name);
+    add_part(spec, mesh, part, rigid);
+  }
+  deck.line("*RIGID BODY, REF NODE={}, ELSET=RIGID_PARTS", deck.named_node("BODY_REFERENCE", rigid.centre()));
+}
+
+void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck) {
+  deck.chapter("EQUILIBRIUM");
+  StepText steps(spec, tyre, facts, deck);
+  steps.seat();
+  steps.inflate_tyres();
+  steps.weigh();
+  steps.touch();
+  steps.stand();
+}
+
+}  // namespace balocco::car

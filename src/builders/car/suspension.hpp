@@ -1,0 +1,26 @@
+// Suspension, wheels and engine in the deck: rigid parts, bushings, struts, hinges.
+#pragma once
+
+#include "builders/car/body_deck.hpp"
+#include "builders/car/car_spec.hpp"
+
+namespace balocco::car {
+
+/// Sprung weight on one wheel of each axle, N.
+struct CornerWeights {
+  double front = 0.0, rear = 0.0;
+};
+
+/// Everything that the springs carry: body, masses, engine, subframe.
+Inertia sprung_mass(const CarSpec& spec, const BodyMesh& mesh);
+CornerWeights corner_weights(const CarSpec& spec, const Inertia& sprung);
+
+/// Places of the wheels' centres at design height, as wheel_names.
+std::array<Vector, 4> wheel_centres(const CarSpec& spec);
+
+/// Springs are as long without load as makes them carry `weights` at design height.
+void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, DeckText& deck);
+void write_rear_suspension(const CarSpec& spec, const CornerWeights& weights, DeckText& deck);
+void write_engine(const CarSpec& spec, DeckText& deck);
+
+}  // namespace balocco::car

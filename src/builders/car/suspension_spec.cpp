@@ -1,0 +1,119 @@
+#include "builders/car/suspension_spec.hpp"
+
+#include <fmt/format.h>
+
+#include "builders/spec_table.hpp"
+
+namespace balocco::car {
+namespace {
+
+Vector read_place(SpecTable& table, std::string_view key) {
+  const auto rows = table.rows(key, 3, 3);
+  if (rows.size() == 1) return {rows[0][0], rows[0][1], rows[0][2]};
+  if (table.has(key)) table.fault(key, fmt::format("it has {} rows; a place is one row [[x, y, z]]", rows.size()));
+  return {};
+}
+
+RigidPart read_part(SpecTable& parent, std::string_view key) {
+  auto table = parent.table(key);
+  RigidPart part;
+  part.mass = table.number("mass", Bounds::positive("g"));
+  part.centre = read_place(table, "centre");
+  const auto size = read_place(table, "size");
+  part.size = {size[0], size[1], size[2]};
+  table.refuse_unknown();
+  return part;
+}
+
+/// Rows (travel or velocity, force), both rising from (0, 0).
+std::vector<std::array<double, 2>> read_curve(SpecTable& table, std::string_view key) {
+  std::vector<std::array<double, 2>> curve;
+  for (const auto& row : table.rows(key, 2, 2)) {
+    if (!curve.empty() && row[0] <= curve.back()[0]) table.fault(key, fmt::format("{:g} follows {:g}; list the rows in rising order", row[0], curve.back()[0]));
+    curve.push_back({row[0], row[1]});
+  }
+  if (!curve.empty() && (curve[0][0] != 0.0 || curve[0][1] != 0.0)) table.fault(key, "the curve must begin at [0, 0]; add that row");
+  if (table.has(key) && curve.size() < 2) table.fault(key, "a curve needs two rows and more; add them");
+  return curve;
+}
+
+StrutSpec read_strut(SpecTable& parent, std::string_view key) {
+  auto table = parent.table(key);
+  StrutSpec strut;
+  strut.spring_rate = table.number("spring_rate", Bounds::positive("N/mm"));
+  strut.bump = read_curve(table, "damper_bump");
+  strut.rebound = read_curve(table, "damper_rebound");
+  strut.bump_gap = table.number("bump_gap", Bounds::positive("mm"));
+  strut.rebound_gap = table.number("rebound_gap", Bounds::positive("mm"));
+  strut.stop = read_curve(table, "stop");
+  table.refuse_unknown();
+  return strut;
+}
+
+BushingSpec read_bushing(SpecTable& parent, std::string_view key) {
+  auto table = parent.table(key);
+  const BushingSpec bushing{.radial = table.number("radial", Bounds::positive("N/mm")), .axial = table.number("axial", Bounds::positive("N/mm")),
+                            .angular = table.number("angular", Bounds::positive("N mm/rad")), .damping_time = table.number("damping_time", Bounds::not_negative("ms"))};
+  table.refuse_unknown();
+  return bushing;
+}
+
+void read_front(SpecTable& top, FrontSpec& front) {
+  auto table = top.table("front");
+  const std::pair<const char*, Vector*> points[]{{"arm_front", &front.arm_front}, {"arm_rear", &front.arm_rear}, {"ball_joint", &front.ball_joint},
+                                                 {"strut_lower", &front.strut_lower}, {"rod_inner", &front.rod_inner}, {"rod_outer", &front.rod_outer}};
+  for (const auto& [key, place] : points) *place = read_place(table, key);
+  front.subframe = read_part(table, "subframe");
+  front.arm = read_part(table, "arm");
+  front.knuckle = read_part(table, "knuckle");
+  front.hub = read_part(table, "hub");
+  front.rod_mass = table.number("rod_mass", Bounds::positive("g"));
+  front.strut = read_strut(table, "strut");
+  front.arm_bush = read_bushing(table, "arm_bush");
+  front.top_mount = read_bushing(table, "top_mount");
+  front.subframe_mount = read_bushing(table, "subframe_mount");
+  table.refuse_unknown();
+}
+
+void read_rear(SpecTable& top, RearSpec& rear) {
+  auto table = top.table("rear");
+  const std::pair<const char*, Vector*> points[]{{"spring_seat", &rear.spring_seat}, {"damper_lower", &rear.damper_lower}};
+  for (const auto& [key, place] : points) *place = read_place(table, key);
+  rear.arm = read_part(table, "arm");
+  rear.wheel_hub = read_part(table, "hub");
+  rear.strut = read_strut(table, "strut");
+  rear.pivot_bush = read_bushing(table, "pivot_bush");
+  rear.beam_torsion = table.number("beam_torsion", Bounds::positive("N mm/rad"));
+  rear.beam_bending = table.number("beam_bending", Bounds::positive("N mm/rad"));
+  table.refuse_unknown();
+}
+
+void read_engine(SpecTable& top, EngineSpec& engine) {
+  auto table = top.table("engine");
+  engine.block = read_part(table, "block");
+  for (const auto& row : table.rows("rates", 3, 3)) engine.rates.push_back({row[0], row[1], row[2]});
+  if (engine.rates.size() != 3 && table.has("rates")) table.fault("rates", "the engine hangs on three mounts; give three rows");
+  engine.damping_time = table.number("damping_time", Bounds::not_negative("ms"));
+  table.refuse_unknown();
+}
+
+void read_road(SpecTable& top, RoadSpec& road) {
+  auto table = top.table("road");
+  road.clearance = table.number("clearance", Bounds::positive("mm"));
+  road.behind = table.number("behind", Bounds::positive("mm"));
+  road.ahead = table.number("ahead", Bounds::positive("mm"));
+  road.friction = table.number("friction", Bounds::not_negative(""));
+  table.refuse_unknown();
+}
+
+}  // namespace
+
+void read_chassis(SpecTable& top, ChassisSpec& chassis) {
+  read_front(top, chassis.front);
+  read_rear(top, chassis.rear);
+  read_engine(top, chassis.engine);
+  read_road(top, chassis.road);
+
+}
+
+}  // namespace balocco::car

@@ -1,0 +1,116 @@
+#include "builders/car/tyre_placement.hpp"
+
+#include <fmt/format.h>
+
+#include "builders/road_profile.hpp"
+#include "builders/tyre_mesh.hpp"
+#include "builders/tyre_report.hpp"
+
+namespace balocco::car {
+namespace {
+
+/// Appends a copy of the tyre, moved to a wheel's place. Left and right tyres are alike, as they are when they come from one mould.
+void append(const Model& tyre, const Vector& centre, const std::string& suffix, std::int64_t first_id, Model& model) {
+  const auto moved = [&](const Point& p) { return Point{p[0] + centre[0], p[1] + centre[1], p[2] + centre[2]}; };
+  const auto first_node = model.nodes.size();
+  for (std::int32_t row = 0; row < tyre.nodes.size(); ++row) {
+    const auto node = add_node(model, moved(tyre.nodes.coordinates[row]));
+    model.nodes.row_of_id.erase(model.nodes.id[node]);
+    model.nodes.id[node] = first_id + node + 1;
+    model.nodes.row_of_id[model.nodes.id[node]] = node;
+  }
+  const auto first_section = static_cast<std::int32_t>(model.sections.size()), first_orientation = static_cast<std::int32_t>(model.orientations.size());
+  for (auto orientation : tyre.orientations) {
+    orientation.name += suffix;
+    orientation.origin = moved(orientation.origin);
+    model.orientations.push_back(orientation);
+  }
+  for (auto section : tyre.sections) {
+    section.element_set += suffix;
+    if (section.orientation >= 0) section.orientation += first_orientation;
+    model.sections.push_back(section);
+  }
+  std::vector<std::int32_t> first_row;  // by table: where this copy's elements begin
+  for (std::size_t table = 0; table < tyre.elements.size(); ++table) {
+    const auto& from = tyre.elements[table];
+    if (table == model.elements.size()) model.elements.push_back({.type = from.type});
+    auto& to = model.elements[table];
+    first_row.push_back(to.size());
+    for (const auto node : from.connectivity) to.connectivity.push_back(first_node + node);
+    for (const auto section : from.section) to.section.push_back(first_section + section);
+    to.id.insert(to.id.end(), from.id.begin(), from.id.end());
+    to.location.insert(to.location.end(), from.location.begin(), from.location.end());
+  }
+  for (auto set : tyre.node_sets) {
+    set.name += suffix;
+    for (auto& node : set.nodes) node += first_node;
+    model.node_sets.push_back(set);
+  }
+  for (auto set : tyre.element_sets) {
+    set.name += suffix;
+    for (auto& element : set.elements) element.row += first_row[element.table];
+    model.element_sets.push_back(set);
+  }
+  for (auto surface : tyre.surfaces) {
+    surface.name += suffix;
+    for (auto& face : surface.faces) face.element.row += first_row[face.element.table];
+    model.surfaces.push_back(surface);
+  }
+}
+
+std::int32_t add_road(const RoadSpec& road, const std::string& name, const Point& foot, std::int64_t first_id, Model& model) {
+  const auto node = add_node(model, foot);
+  model.nodes.row_of_id.erase(model.nodes.id[node]);
+  model.nodes.id[node] = first_id + node + 1;
+  model.nodes.row_of_id[model.nodes.id[node]] = node;
+  add_node_set(model, name, {node});
+  Surface surface;
+  surface.kind = Surface::Kind::analytical;
+  surface.name = name + "_SURFACE";
+  surface.analytical = road_surface(road, foot);
+  model.surfaces.push_back(surface);
+  const auto row = static_cast<std::int32_t>(model.surfaces.size()) - 1;
+  RigidBody body;
+  body.name = fmt::format("RIGID-{}", model.nodes.id[node]);
+  body.reference_node = node;
+  body.analytical_surface = row;
+  model.rigid_bodies.push_back(body);
+  return row;
+}
+
+std::int32_t surface_row(const Model& model, const std::string& name) {
+  for (std::size_t row = 0; row < model.surfaces.size(); ++row)
+    if (model.surfaces[row].name == name) return static_cast<std::int32_t>(row);
+  return -1;
+}
+
+}  // namespace
+
+TyreFacts add_tyres(const TyreSpec& spec, const RoadSpec& road, const WheelPlaces& places, std::int64_t first_id, Model& model) {
+  const auto section = make_section(spec);
+  Model tyre;
+  const auto mesh = add_tyre(spec, section, tyre);
+  TyreFacts facts{.outer_radius = section.outer_radius(), .seat_shift = section.seat_shift};
+  for (const auto& part : tyre_masses(spec, mesh, tyre)) facts.mass += part.mass;
+  model.units = {"mm", "g", "ms"};
+  model.materials = tyre.materials;
+  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) append(tyre, places.centre[wheel], std::string("_") + wheel_names[wheel], first_id, model);
+  std::int64_t id = first_id;
+  for (auto& table : model.elements)
+    for (auto& element : table.id) element = ++id;
+  model.interactions.push_back({.name = "GRIP", .friction = road.friction});
+  for (const auto* side : {"LEFT", "RIGHT"}) {
+    const Point foot{places.centre[0][0], side[0] == 'L' ? places.centre[0][1] : places.centre[1][1], places.centre[0][2] - facts.outer_radius - places.clearance};
+    const auto master = add_road(road, std::string("ROAD_") + side, foot, first_id, model);
+    for (const auto* axle : {"FRONT_", "REAR_"}) {
+      ContactPair pair;
+      pair.slave = surface_row(model, std::string("TREAD_") + axle + side);
+      pair.master = master;
+      pair.interaction = 0;
+      model.contact_pairs.push_back(pair);
+    }
+  }
+  return facts;
+}
+
+}  // namespace balocco::car

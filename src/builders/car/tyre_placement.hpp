@@ -1,0 +1,29 @@
+// Four tyres of one description at their places, and the roads below them.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "builders/car/curve.hpp"
+#include "builders/tyre_spec.hpp"
+#include "model/model.hpp"
+
+namespace balocco::car {
+
+constexpr std::array<const char*, 4> wheel_names{"FRONT_LEFT", "FRONT_RIGHT", "REAR_LEFT", "REAR_RIGHT"};
+
+struct WheelPlaces {
+  std::array<Vector, 4> centre;  // as wheel_names
+  double clearance = 0.0;        // mm between the moulded tread and the road at first
+};
+
+/// What the rest of the car wants to know of the tyre.
+struct TyreFacts {
+  double outer_radius = 0.0, seat_shift = 0.0, mass = 0.0;  // mm, mm that each bead moves to the rim, g of one tyre
+};
+
+/// Adds to an empty model: element sets, node sets and surfaces of the tyre builder with _FRONT_LEFT and so on behind their names; roads
+/// ROAD_LEFT and ROAD_RIGHT as rigid bodies; contact of the treads with them. Ids begin behind `first_id`.
+TyreFacts add_tyres(const TyreSpec& tyre, const RoadSpec& road, const WheelPlaces& places, std::int64_t first_id, Model& model);
+
+}  // namespace balocco::car
