@@ -38,7 +38,7 @@ def read_deck(path):
             nodes[int(fields[0])] = [float(x) for x in fields[1:4]]
         elif keyword == "ELEMENT" and options.get("TYPE", "").startswith(("S4", "S3", "M3D4", "R3D4")):
             corners = [int(x) for x in line.split(",")[1:]]
-            parts.setdefault(options["ELSET"], []).append((corners + corners[-1:])[:4])
+            parts.setdefault(options.get("ELSET", "TYRES"), []).append((corners + corners[-1:])[:4])
     return nodes, parts, materials
 
 

@@ -206,29 +206,6 @@ void read_static(SpecTable& top, TyreSpec& spec) {
   table.refuse_unknown();
 }
 
-void read_road(SpecTable& top, TyreSpec& spec) {
-  auto table = top.table("road");
-  auto& road = spec.road;
-  road.clearance = table.number("clearance", Bounds::positive("mm"));
-  road.behind = table.number("behind", Bounds::positive("mm"));
-  road.ahead = table.number("ahead", Bounds::positive("mm"));
-  road.friction = table.number("friction", Bounds::not_negative(""));
-  road.obstacle_height = table.number("obstacle_height", Bounds::not_negative("mm"), 0.0);
-  if (road.obstacle_height > 0.0) {
-    road.obstacle_length = table.number("obstacle_length", Bounds::positive("mm"));
-    road.obstacle_start = table.number("obstacle_start", Bounds::positive("mm"));
-    road.top_fillet = table.number("top_fillet", Bounds::not_negative("mm"));
-    road.foot_fillet = table.number("foot_fillet", Bounds::not_negative("mm"));
-    if (road.top_fillet + road.foot_fillet > road.obstacle_height)
-      table.fault("top_fillet", "the two fillets together are higher than the obstacle; make them smaller");
-    if (2.0 * road.top_fillet > road.obstacle_length)
-      table.fault("top_fillet", "two fillets are longer than the obstacle; make them smaller");
-    if (road.obstacle_start + road.obstacle_length + 2.0 * road.foot_fillet >= road.ahead)
-      table.fault("ahead", "the road ends before the obstacle does; make it longer");
-  }
-  table.refuse_unknown();
-}
-
 void read_rolling_and_output(SpecTable& top, TyreSpec& spec) {
   auto table = top.table("rolling");
   auto& rolling = spec.rolling;
@@ -257,6 +234,28 @@ void read_rolling_and_output(SpecTable& top, TyreSpec& spec) {
 
 }  // namespace
 
+void read_road(SpecTable& top, RoadSpec& road) {
+  auto table = top.table("road");
+  road.clearance = table.number("clearance", Bounds::positive("mm"));
+  road.behind = table.number("behind", Bounds::positive("mm"));
+  road.ahead = table.number("ahead", Bounds::positive("mm"));
+  road.friction = table.number("friction", Bounds::not_negative(""));
+  road.obstacle_height = table.number("obstacle_height", Bounds::not_negative("mm"), 0.0);
+  if (road.obstacle_height > 0.0) {
+    road.obstacle_length = table.number("obstacle_length", Bounds::positive("mm"));
+    road.obstacle_start = table.number("obstacle_start", Bounds::positive("mm"));
+    road.top_fillet = table.number("top_fillet", Bounds::not_negative("mm"));
+    road.foot_fillet = table.number("foot_fillet", Bounds::not_negative("mm"));
+    if (road.top_fillet + road.foot_fillet > road.obstacle_height)
+      table.fault("top_fillet", "the two fillets together are higher than the obstacle; make them smaller");
+    if (2.0 * road.top_fillet > road.obstacle_length)
+      table.fault("top_fillet", "two fillets are longer than the obstacle; make them smaller");
+    if (road.obstacle_start + road.obstacle_length + 2.0 * road.foot_fillet >= road.ahead)
+      table.fault("ahead", "the road ends before the obstacle does; make it longer");
+  }
+  table.refuse_unknown();
+}
+
 TyreSpec read_tyre_spec(const std::string& toml_text, const std::string& file_name) {
   const auto file = parse_spec(toml_text, file_name);
   SpecFaults faults(file_name);
@@ -274,7 +273,7 @@ TyreSpec read_tyre_spec(const std::string& toml_text, const std::string& file_na
   read_bead_and_rim(top, spec);
   read_mesh(top, spec);
   read_static(top, spec);
-  read_road(top, spec);
+  read_road(top, spec.road);
   read_rolling_and_output(top, spec);
   top.refuse_unknown();
   faults.throw_if_any();

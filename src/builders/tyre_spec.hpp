@@ -9,6 +9,8 @@
 
 namespace balocco {
 
+class SpecTable;
+
 /// Mooney-Rivlin rubber.
 struct RubberSpec {
   std::string name;
@@ -138,6 +140,9 @@ struct TyreSpec {
 
   const RegionSpec& region(Region r) const { return regions[static_cast<int>(r)]; }
 };
+
+/// The table [road] of a description.
+void read_road(SpecTable& top, RoadSpec& road);
 
 /// @throws InputError with every fault found.
 TyreSpec read_tyre_spec(const std::string& toml_text, const std::string& file_name);

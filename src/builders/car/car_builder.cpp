@@ -77,8 +77,12 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   write_front_suspension(spec, weights, deck);
   write_rear_suspension(spec, weights, deck);
   write_engine(spec, deck);
-  write_equilibrium(spec, tyre, facts, deck);
-  car.text = deck.text();
+  car.car = deck.text();
+  DeckText equilibrium, drive;
+  write_equilibrium(spec, tyre, facts, equilibrium);
+  write_drive(spec, tyre, drive);
+  car.equilibrium = equilibrium.text();
+  car.drive = drive.text();
   car.report = car_report(spec, mesh, welds) + fmt::format("  sprung weight on the springs of a front wheel {:.0f} N, of a rear wheel {:.0f} N\n", weights.front, weights.rear);
   return car;
 }

@@ -9,10 +9,10 @@
 
 namespace balocco {
 
-/// A deck in two pieces: what is a model already (heading, tyres, roads), and text that goes on from there.
+/// Decks in pieces: what is a model already (heading, tyres, roads), text of the rest of the car, and steps.
 struct CarDeck {
   Model tyres;
-  std::string text;
+  std::string car, equilibrium, drive;
   std::string report;  // masses, inertias and dimensions
 };
 

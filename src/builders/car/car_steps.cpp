@@ -1,10 +1,26 @@
 #include "builders/car/car_steps.hpp"
 
+#include "builders/car/suspension.hpp"
+
 namespace balocco::car {
 namespace {
 
 constexpr double gravity = 9.81e-3;  // mm/ms2
 constexpr double period = 1e6;       // ms of a static step: so slow that dampers and rubbers push with nothing
+
+const char* side_of(const std::string& wheel) {
+  return wheel.ends_with("LEFT") ? "LEFT" : "RIGHT";
+}
+
+/// What every step tells over its time: hubs, roads, mounts, struts, tyres.
+void write_history(DeckText& deck) {
+  for (const auto* wheel : wheel_names) deck.line("*NODE OUTPUT, NSET=HUB_{}\nU, UR, V, RF", wheel);
+  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*NODE OUTPUT, NSET=ROAD_{}\nU3, RF", side);
+  for (const auto* side : {"LEFT", "RIGHT"})
+    deck.line("*NODE OUTPUT, NSET=STRUT_MOUNT_FRONT_{}\nU\n*NODE OUTPUT, NSET=SPRING_SEAT_REAR_{}\nU\n*ELEMENT OUTPUT, ELSET=STRUT_FRONT_{}\nCTF, CU\n*ELEMENT OUTPUT, ELSET=SPRING_REAR_{}\nCTF, CU",
+               side, side, side, side);
+  for (const auto* wheel : wheel_names) deck.line("*CONTACT OUTPUT, SLAVE=TREAD_{}, MASTER=ROAD_{}_SURFACE\nCFN, CFT", wheel, side_of(wheel));
+}
 
 /// Writes the steps of the equilibrium; each says all that acts in it.
 class StepText {
@@ -82,7 +98,7 @@ class StepText {
     deck_.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}", name, first * period, period, 1e-5 * period, largest * period);
   }
   void pairs() {
-    for (const auto* wheel : wheel_names) deck_.line("TREAD_{}, ROAD_{}_SURFACE", wheel, std::string(wheel).ends_with("LEFT") ? "LEFT" : "RIGHT");
+    for (const auto* wheel : wheel_names) deck_.line("TREAD_{}, ROAD_{}_SURFACE", wheel, side_of(wheel));
   }
   void hold_hubs(int first, int last) {
     for (const auto* wheel : wheel_names) deck_.line("HUB_{}, {}, {}", wheel, first, last);
@@ -102,12 +118,7 @@ class StepText {
 
   void end() {
     deck_.line("*OUTPUT, FIELD, FREQUENCY=1000000\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, FREQUENCY=1");
-    for (const auto* wheel : wheel_names) deck_.line("*NODE OUTPUT, NSET=HUB_{}\nU, UR, RF", wheel);
-    for (const auto* side : {"LEFT", "RIGHT"}) deck_.line("*NODE OUTPUT, NSET=ROAD_{}\nU3, RF", side);
-    for (const auto* side : {"LEFT", "RIGHT"})
-      deck_.line("*NODE OUTPUT, NSET=STRUT_MOUNT_FRONT_{}\nU\n*NODE OUTPUT, NSET=SPRING_SEAT_REAR_{}\nU\n*ELEMENT OUTPUT, ELSET=STRUT_FRONT_{}\nCTF, CU\n*ELEMENT OUTPUT, ELSET=SPRING_REAR_{}\nCTF, CU",
-                 side, side, side, side);
-    for (const auto* wheel : wheel_names) deck_.line("*CONTACT OUTPUT, SLAVE=TREAD_{}, MASTER=ROAD_{}_SURFACE\nCFN, CFT", wheel, std::string(wheel).ends_with("LEFT") ? "LEFT" : "RIGHT");
+    write_history(deck_);
     deck_.line("*ENERGY OUTPUT\nALLIE, ALLWK, ETOTAL\n*END STEP");
   }
 
@@ -140,6 +151,29 @@ void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFact
   steps.weigh();
   steps.touch();
   steps.stand();
+}
+
+void write_drive(const CarSpec& spec, const TyreSpec& tyre, DeckText& deck) {
+  const auto& drive = spec.chassis.drive;
+  deck.chapter("DRIVE: the roads run, the car is free");
+  const auto centres = wheel_centres(spec);
+  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
+    const auto& at = centres[wheel];
+    deck.line("*NSET, NSET=WHEEL_{}\nTYRE_{}, HUB_{}", wheel_names[wheel], wheel_names[wheel], wheel_names[wheel]);
+    deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.\n{:g}, {:g}, {:g}, 0., 1., 0.", wheel_names[wheel], drive.speed / drive.rolling_radius, at[0], at[1], at[2]);
+  }
+  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -drive.speed);
+  deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}", tyre.rolling.scale_factor, drive.duration,
+            tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
+  deck.line("*MODEL CHANGE, TYPE=CONTACT PAIR, ADD");
+  for (const auto* wheel : wheel_names) deck.line("TREAD_{}, ROAD_{}_SURFACE", wheel, side_of(wheel));
+  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, -drive.speed, side);
+  deck.line("*DSLOAD");
+  for (const auto* wheel : wheel_names) deck.line("LINER_{}, P, {:g}", wheel, tyre.statics.pressure);
+  deck.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity);
+  deck.line("*OUTPUT, FIELD, NUMBER INTERVAL={}\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, TIME INTERVAL={:g}", drive.frames, drive.history_interval);
+  write_history(deck);
+  deck.line("*ENERGY OUTPUT\nALLIE, ALLKE, ALLWK, ETOTAL\n*RESTART, WRITE, NUMBER INTERVAL=4\n*END STEP");
 }
 
 }  // namespace balocco::car

@@ -15,4 +15,7 @@ void write_fidelity(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck);
 /// Seating and inflation with all held; gravity and the springs' load with the wheels held; the road rises; the car stands free.
 void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck);
 
+/// The car rolls freely while the roads run under it, from where the equilibrium ended.
+void write_drive(const CarSpec& spec, const TyreSpec& tyre, DeckText& deck);
+
 }  // namespace balocco::car

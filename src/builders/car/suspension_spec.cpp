@@ -97,12 +97,13 @@ void read_engine(SpecTable& top, EngineSpec& engine) {
   table.refuse_unknown();
 }
 
-void read_road(SpecTable& top, RoadSpec& road) {
-  auto table = top.table("road");
-  road.clearance = table.number("clearance", Bounds::positive("mm"));
-  road.behind = table.number("behind", Bounds::positive("mm"));
-  road.ahead = table.number("ahead", Bounds::positive("mm"));
-  road.friction = table.number("friction", Bounds::not_negative(""));
+void read_drive(SpecTable& top, DriveSpec& drive) {
+  auto table = top.table("drive");
+  drive.speed = table.number("speed", Bounds::positive("mm/ms"));
+  drive.rolling_radius = table.number("rolling_radius", Bounds::positive("mm"));
+  drive.duration = table.number("duration", Bounds::positive("ms"));
+  drive.frames = table.integer("frames", 1, 100000);
+  drive.history_interval = table.number("history_interval", Bounds::positive("ms"));
   table.refuse_unknown();
 }
 
@@ -113,6 +114,9 @@ void read_chassis(SpecTable& top, ChassisSpec& chassis) {
   read_rear(top, chassis.rear);
   read_engine(top, chassis.engine);
   read_road(top, chassis.road);
+  read_drive(top, chassis.drive);
+  if (chassis.drive.speed * chassis.drive.duration >= chassis.road.ahead)
+    top.fault("drive", "the car leaves the road; shorten the duration or lengthen [road] ahead");
 
 }
 

@@ -50,11 +50,18 @@ struct EngineSpec {
   double damping_time = 0.0;                 // ms times stiffness
 };
 
+struct DriveSpec {
+  double speed = 0.0, rolling_radius = 0.0;       // mm/ms, mm of the loaded tyres
+  double duration = 0.0, history_interval = 0.0;  // ms
+  int frames = 0;
+};
+
 struct ChassisSpec {
   FrontSpec front;
   RearSpec rear;
   EngineSpec engine;
   RoadSpec road;
+  DriveSpec drive;
 };
 
 void read_chassis(SpecTable& top, ChassisSpec& chassis);
