@@ -1,5 +1,6 @@
 """JOB.dat through the whole program: print_cases.py CASE PROGRAM FOLDER."""
 import os
+import shutil
 import re
 import signal
 import subprocess
@@ -92,7 +93,8 @@ def restart(runner):
     runner.run("restart", deck)
     whole = os.path.join(runner.folder, "restart_1", "restart.dat")
     folder = os.path.join(runner.folder, "stopped")
-    os.makedirs(folder, exist_ok=True)
+    shutil.rmtree(folder, ignore_errors=True)  # what an earlier run left there would be taken for this one's
+    os.makedirs(folder)
     command = [runner.program, "run", os.path.join(runner.folder, "restart_1", "restart.inp"), "--output", folder]
     running = subprocess.Popen(command, stdout=subprocess.DEVNULL)
     mine = os.path.join(folder, "restart.dat")
