@@ -102,11 +102,8 @@ void add_loads(const Analysis& analysis, const Step& step, std::vector<double>& 
   for (const auto& load : step.body_loads) add_body_load(analysis, load, greatest(load), largest);
 }
 
-void add_restraints(const std::vector<Restraint>& restraints, double reach, double increment, std::vector<double>& largest) {
-  for (std::size_t node = 0; node < restraints.size(); ++node) {
-    const auto& [stiffness, viscosity, force] = restraints[node];
-    largest[node] += stiffness * reach + viscosity * (reach / increment) + force;
-  }
+double greatest_pull(const Restraint& restraint, double reach, double increment) {
+  return restraint.stiffness * reach + restraint.viscosity * (reach / increment) + restraint.force;
 }
 
 /// Springs may stretch by the size of the model or turn around, by what is prescribed, and by what moving nodes pass in an increment:
@@ -128,8 +125,13 @@ void add_restraints(const Analysis& analysis, const Step& step, const NodalRestr
     speed = std::max(speed, std::hypot(v[0], v[1], v[2]));
     spin = std::max(spin, std::abs(initial.angular_speed));
   }
-  add_restraints(restraints.translation, displacement + (speed + spin * size) * increment, increment, largest);
-  add_restraints(restraints.rotation, rotation + spin * increment, increment, moment);
+  const double reach = displacement + (speed + spin * size) * increment, turn = rotation + spin * increment;
+  for (std::size_t node = 0; node < restraints.translation.size(); ++node) {
+    const double pull = greatest_pull(restraints.translation[node], reach, increment);
+    largest[node] += pull;
+    if (node < moment.size()) moment[node] += pull * reach;  // the pull of a connector has an arm about the other node
+  }
+  for (std::size_t node = 0; node < restraints.rotation.size(); ++node) moment[node] += greatest_pull(restraints.rotation[node], turn, increment);
 }
 
 }  // namespace

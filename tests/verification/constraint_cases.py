@@ -439,6 +439,55 @@ def same_bits(run):
     check("the body moves", float(moved > 0.05), 1.0, 0.0)
 
 
+def springs_on_an_arm(run):
+    """CARTESIAN springs of two stiffnesses between nodes in one place, with no stiffness of rotation: the force on the mass has an arm
+    about the held node as soon as it swings, and that node bears the moment. Two oscillators that know nothing of each other."""
+    stiffness, speed, mass = (1e6, 4e6), (10.0, 10.0), 1.0
+    omega = [math.sqrt(k / mass) for k in stiffness]
+    for ranks in (1, 2):
+        job = run(f"""*NODE
+1, 0., 0., 0.
+2, 0., 0., 0.
+3, 1., 0., 0.
+*NSET, NSET=HELD
+1, 3
+*NSET, NSET=SWINGS
+2
+*ELEMENT, TYPE=CONN3D2, ELSET=SPRINGS
+1, 1, 2
+*ELEMENT, TYPE=MASS, ELSET=MASSES
+2, 2
+3, 3
+*MASS, ELSET=MASSES
+{mass}
+*ELEMENT, TYPE=ROTARYI, ELSET=INERTIAS
+4, 2
+*ROTARY INERTIA, ELSET=INERTIAS
+0.01, 0.01, 0.01
+*CONNECTOR BEHAVIOR, NAME=LAW
+*CONNECTOR ELASTICITY, COMPONENT=1
+{stiffness[0]}
+*CONNECTOR ELASTICITY, COMPONENT=2
+{stiffness[1]}
+*CONNECTOR ELASTICITY, COMPONENT=3
+{stiffness[1]}
+*CONNECTOR SECTION, ELSET=SPRINGS, BEHAVIOR=LAW
+CARTESIAN
+*INITIAL CONDITIONS, TYPE=VELOCITY
+SWINGS, 1, {speed[0]}
+SWINGS, 2, {speed[1]}
+*BOUNDARY
+HELD, 1, 6
+""" + explicit_step(1e-6, 5e-3, "", history("SWINGS", "U1, U2", 1e-5) + "*NODE OUTPUT, NSET=HELD\nRM3\n"), ranks)
+        time, x = job.history("node_2", "U1")
+        y = job.history("node_2", "U2")[1]
+        for place, v, w in ((x, speed[0], omega[0]), (y, speed[1], omega[1])):
+            check("swing", np.abs(place - v / w * np.sin(w * time)).max(), 0.0, 1e-5 * v / w)
+        moment = job.history("node_1", "RM3")[1]
+        expected = (stiffness[0] - stiffness[1]) * x * y
+        check("moment on the held node", np.abs(np.abs(moment) - np.abs(expected)).max(), 0.0, 1e-6 * np.abs(expected).max())
+
+
 if __name__ == "__main__":
     run_case({case.__name__: case for case in (masses_on_links, falling_chain, four_bar, universal_joint, coupled_tip, turned_coupling, equations,
-                                               tied_blocks, welded_sheets, rest_with_constraints, same_bits)})
+                                               tied_blocks, welded_sheets, rest_with_constraints, same_bits, springs_on_an_arm)})
