@@ -392,6 +392,7 @@ TEST_F(Results, DiffNamesWhereTwoRunsPart) {
   run_job(world, two);
   const std::string a = one + "/job.h5", b = two + "/job.h5";
   EXPECT_TRUE(compare_results(a, b, 0.0).same);
+  MPI_Barrier(MPI_COMM_WORLD);  // all have read what the root changes now
   if (world.is_root()) {
     const Hdf5File file(b, Hdf5File::Mode::modify);
     for (const std::string path : {"/step_2/frame_3/node/U", "/step_2/frame_1/element/FAKE4/S"}) {
