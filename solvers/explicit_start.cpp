@@ -71,11 +71,14 @@ struct Radii {
   double loaded = 1e300, free = 0.0;
 };
 
-/// Radii of a contact pair's slave surface about an axis: of the nearest closed node, and of the farthest node.
+/// Radii about its axis of what a rotation turns of a contact pair's slave surface: of the nearest closed node, and of the farthest node.
 Radii radii_of(const Analysis& analysis, std::int32_t pair, const InitialVelocity& rotation) {
   const auto& contact = analysis.contacts[pair];
+  std::vector<bool> turns(static_cast<std::size_t>(analysis.model.nodes.size()), false);
+  for (const auto row : rotation.nodes) turns[row] = true;
   Radii radii;
   for (std::int32_t point = 0; point < contact.size(); ++point) {
+    if (!turns[analysis.domain.node_row[contact.nodes()[point]]]) continue;
     const double r = radius(rotation, vector(&analysis.current.position[4 * contact.nodes()[point]]));
     radii.free = std::max(radii.free, r);
     if (analysis.current.contact[pair][point].closed > 0.0) radii.loaded = std::min(radii.loaded, r);

@@ -42,7 +42,8 @@ def build(balocco, folder, **changes):
         assert count == 1, f"{key} must stand once in {SPEC}"
     spec, deck = os.path.join(folder, "car.toml"), os.path.join(folder, "car.inp")
     open(spec, "w").write(text)
-    report = subprocess.run([balocco, "car", spec, "--output", deck], check=True, stdout=subprocess.PIPE, text=True).stdout
+    drive = os.path.join(folder, "drive.inp")
+    report = subprocess.run([balocco, "car", spec, "--output", deck, "--drive", drive], check=True, stdout=subprocess.PIPE, text=True).stdout
     return deck, report
 
 
@@ -52,10 +53,10 @@ def body_alone(deck):
     return "*HEADING\n" + text[text.index("** ---- BODY IN WHITE"):text.index("** ---- FIDELITY")]
 
 
-def run(balocco, ranks, folder, name, text):
+def run(balocco, ranks, folder, name, text, *arguments):
     deck = os.path.join(folder, name + ".inp")
     open(deck, "w").write(text)
-    subprocess.run(["mpirun", "--oversubscribe", "-n", ranks, balocco, "run", deck, "--output", folder], check=True, env=RUN)
+    subprocess.run(["mpirun", "--oversubscribe", "-n", ranks, balocco, "run", deck, "--output", folder, *arguments], check=True, env=RUN)
     return h5py.File(os.path.join(folder, name + ".h5"))
 
 
@@ -94,6 +95,21 @@ def equilibrium(balocco, ranks, folder):
     assert all(3600.0 < load < 4400.0 for name, load in loads.items() if "FRONT" in name)
     for mount in ("STRUT_MOUNT_FRONT_LEFT", "STRUT_MOUNT_FRONT_RIGHT", "SPRING_SEAT_REAR_LEFT", "SPRING_SEAT_REAR_RIGHT"):
         assert abs(history(mount, "U")[2]) < 15.0, mount
+    rolling(balocco, ranks, folder, loads)
+
+
+def rolling(balocco, ranks, folder, standing, duration=2.0):
+    """The first milliseconds of the drive, from the equilibrium: wheels turn forward. What they carry is told: these tyres are polygons."""
+    text, count = re.subn(r"(?m)^, 400$", f", {duration}", open(os.path.join(folder, "drive.inp")).read())
+    assert count == 1
+    spin = float(re.search(r"(?m)^WHEEL_FRONT_LEFT, ([\d.]+),", text)[1])
+    results = run(balocco, ranks, folder, "rolling", text, "--import", os.path.join(folder, "car.ckpt.h5"))
+    last = results["step_1/history"]
+    for name, load in standing.items():
+        hub = results["mesh/node/id"][results["mesh/set/node/" + name.replace("contact_TREAD", "HUB").split("_ROAD")[0]][0]]
+        turn, carried = last[f"node_{hub}/UR"][-1], last[name]["CFN"][-1][2]
+        print(f"{name}: turned by {turn[1]:.5f} of {spin * duration:.5f}, carries {carried:.0f} of {load:.0f} N")
+        assert abs(turn[1] - spin * duration) < 0.02 * spin * duration, turn
 
 
 if __name__ == "__main__":

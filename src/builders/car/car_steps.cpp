@@ -160,7 +160,8 @@ void write_drive(const CarSpec& spec, const TyreSpec& tyre, DeckText& deck) {
   for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
     const auto& at = centres[wheel];
     deck.line("*NSET, NSET=WHEEL_{}\nTYRE_{}, HUB_{}", wheel_names[wheel], wheel_names[wheel], wheel_names[wheel]);
-    deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.\n{:g}, {:g}, {:g}, 0., 1., 0.", wheel_names[wheel], drive.speed / drive.rolling_radius, at[0], at[1], at[2]);
+    deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.", wheel_names[wheel], drive.speed / drive.rolling_radius);
+    deck.line("{:g}, {:g}, {:g}, {:g}, {:g}, {:g}", at[0], at[1], at[2], at[0], at[1] + 1.0, at[2]);  // two points of the axis
   }
   for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -drive.speed);
   deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}", tyre.rolling.scale_factor, drive.duration,
