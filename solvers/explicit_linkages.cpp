@@ -242,9 +242,11 @@ double ExplicitLinkages::find_residual(const Analysis& analysis, System& system,
   return largest;
 }
 
-/// They are close to the new ones. From the state, so that a restart begins alike.
+/// They are close to the new ones, but for those of an implicit step, which count the other way. From the state, so that a restart
+/// begins alike.
 void ExplicitLinkages::begin_with_last_multipliers(const Analysis& analysis, System& system) const {
   std::ranges::fill(system.solution, 0.0);
+  if (analysis.current.increment == 0) return;
   for (const auto& member : system.members)
     for (std::size_t i = 0; i < member.rows.size(); ++i)
       system.solution[member.first_row + i] = analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]];
