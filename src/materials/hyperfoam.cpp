@@ -2,8 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <cmath>
 
+#include "math/dense.hpp"
 #include "model/diagnostics.hpp"
 #include "model/model.hpp"
 
@@ -24,14 +25,14 @@ double Hyperfoam::slope(double strain, const void* law) {
 }
 
 double Hyperfoam::energy(const Matrix3<double>& f) const {
-  using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Eigen::Matrix3d gradient = Eigen::Map<const Matrix>(f.component.data());
-  const Eigen::Vector3d stretch = Eigen::JacobiSVD<Eigen::Matrix3d>(gradient).singularValues().array().log();
+  auto stretch = singular_values(f);
+  for (double& value : stretch.component) value = std::log(value);
+  const double volume = stretch[0] + stretch[1] + stretch[2];
   double sum = 0.0;
   for (const Term& term : terms) {
     const double factor = 2.0 * term.modulus / (term.exponent * term.exponent), rate = -term.exponent * term.beta;
-    for (int i = 0; i < 3; ++i) sum += factor * std::expm1(term.exponent * stretch(i));
-    sum += factor * (rate == 0.0 ? -term.exponent * stretch.sum() : std::expm1(rate * stretch.sum()) / term.beta);
+    for (int i = 0; i < 3; ++i) sum += factor * std::expm1(term.exponent * stretch[i]);
+    sum += factor * (rate == 0.0 ? -term.exponent * volume : std::expm1(rate * volume) / term.beta);
   }
   return sum;
 }

@@ -2,9 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
+#include <cmath>
 
 #include "materials/viscoelastic.hpp"
+#include "math/dense.hpp"
 #include "model/diagnostics.hpp"
 #include "model/model.hpp"
 
@@ -25,15 +26,13 @@ double Ogden::slope(double strain, const void* law) {
 }
 
 double Ogden::energy(const Matrix3<double>& f) const {
-  using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Eigen::Map<const Matrix> gradient(f.component.data());
-  const double jacobian = gradient.determinant(), change = jacobian - 1.0;
-  const Eigen::Vector3d stretch =
-      (Eigen::JacobiSVD<Eigen::Matrix3d>(Eigen::Matrix3d(gradient)).singularValues() / std::cbrt(jacobian)).array().log();
+  const double jacobian = determinant(f, cofactor(f)), change = jacobian - 1.0;
+  auto stretch = singular_values(f);
+  for (double& value : stretch.component) value = std::log(value / std::cbrt(jacobian));
   double sum = 0.0, volume = 1.0;
   for (const Term& term : terms) {
     for (int i = 0; i < 3; ++i)
-      sum += 2.0 * term.modulus / (term.exponent * term.exponent) * std::expm1(term.exponent * stretch(i));
+      sum += 2.0 * term.modulus / (term.exponent * term.exponent) * std::expm1(term.exponent * stretch[i]);
     volume *= change * change;
     sum += term.bulk * volume;
   }

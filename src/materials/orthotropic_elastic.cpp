@@ -1,10 +1,10 @@
 #include "materials/orthotropic_elastic.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <string>
 
 #include "materials/plane_elastic.hpp"
+#include "math/dense.hpp"
 #include "model/diagnostics.hpp"
 #include "model/model.hpp"
 
@@ -12,33 +12,28 @@ namespace balocco {
 
 OrthotropicElastic OrthotropicElastic::from_stiffness(const std::array<double, 9>& normal,
                                                       const std::array<double, 3>& shear, const char* keyword) {
-  using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
-  const Matrix d = Eigen::Map<const Matrix>(normal.data());
-  if (!(Eigen::SelfAdjointEigenSolver<Matrix>(d).eigenvalues().minCoeff() > 0.0))
+  if (!(symmetric_eigenvalues(normal, 3).front() > 0.0))
     throw InputError(std::string(keyword) +
                      ": the stiffness is not positive definite; check the Poisson's ratios or D1122, D1133, D2233");
   OrthotropicElastic law{normal, shear[0], shear[1], shear[2], 0.0, 0.0};
   law.lambda =
       std::max(0.0, (normal[1] + normal[2] + normal[5]) / 3.0);  // any choice is safe; this one is exact if isotropic
-  const Matrix rest = d - law.lambda * Matrix::Ones();
-  law.mu = std::max(
-      {0.5 * Eigen::SelfAdjointEigenSolver<Matrix>(rest).eigenvalues().maxCoeff(), shear[0], shear[1], shear[2]});
+  auto rest = normal;
+  for (double& modulus : rest) modulus -= law.lambda;
+  law.mu = std::max({0.5 * symmetric_eigenvalues(rest, 3).back(), shear[0], shear[1], shear[2]});
   return law;
 }
 
 namespace {
 
 using Parameters = std::span<const double>;
-using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
 
 /// Order of the parameters: E1 E2 E3 nu12 nu13 nu23 G12 G13 G23.
 OrthotropicElastic from_engineering_constants(Parameters p) {
-  Matrix compliance;
-  compliance << 1.0 / p[0], -p[3] / p[0], -p[4] / p[0], -p[3] / p[0], 1.0 / p[1], -p[5] / p[1], -p[4] / p[0],
-      -p[5] / p[1], 1.0 / p[2];
-  const Matrix stiffness = compliance.inverse();
-  std::array<double, 9> normal;
-  Eigen::Map<Matrix>(normal.data()) = 0.5 * (stiffness + stiffness.transpose());
+  const Dense<3, 3> compliance{1.0 / p[0], -p[3] / p[0], -p[4] / p[0], -p[3] / p[0], 1.0 / p[1],
+                               -p[5] / p[1], -p[4] / p[0], -p[5] / p[1], 1.0 / p[2]};
+  const auto stiffness = inverse(compliance);
+  const auto normal = (0.5 * stiffness + 0.5 * transpose(stiffness)).component;
   return OrthotropicElastic::from_stiffness(normal, {p[6], p[7], p[8]}, "*ELASTIC, TYPE=ENGINEERING CONSTANTS");
 }
 
@@ -50,7 +45,7 @@ OrthotropicElastic from_moduli(Parameters p) {
 
 /// Plane stress in material directions 1 and 2.
 PlaneElastic plane_form(const OrthotropicElastic& law) {
-  const Matrix c = Eigen::Map<const Matrix>(law.normal.data()).inverse();
+  const auto c = inverse(Dense<3, 3>{law.normal});
   PlaneElastic plane = PlaneElastic::from_constants({1.0 / c(0, 0), 1.0 / c(1, 1), -c(0, 1) / c(0, 0), law.shear12});
   plane.thickness[0] = c(2, 0) * plane.q11 + c(2, 1) * plane.q12;
   plane.thickness[1] = c(2, 0) * plane.q12 + c(2, 1) * plane.q22;

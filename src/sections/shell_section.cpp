@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
+#include "math/dense.hpp"
 #include "model/diagnostics.hpp"
 #include "sections/membrane_section.hpp"
 
@@ -130,11 +130,11 @@ void add_layers(const Section& input, const std::vector<Ply>& plies, const std::
 
 /// *SHELL GENERAL SECTION with its own constants: column by column 11, 12, 22, 13, ...
 void set_general_stiffness(const Section& input, const Reader& reader, ShellSection& section) {
-  Eigen::MatrixXd d(6, 6);
+  Dense<6, 6> d;
   std::size_t k = 0;
   for (int column = 0; column < 6; ++column)
     for (int row = 0; row <= column; ++row) d(row, column) = d(column, row) = input.shell.stiffness[k++];
-  if (!(Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(d).eigenvalues().minCoeff() > 0.0))
+  if (!(symmetric_eigenvalues(d.component, 6).front() > 0.0))
     reader.fail(
         "its stiffness is not positive definite; check the order of the 21 constants: D11, D12, D22, D13, ... D66");
   const double h = section.thickness;

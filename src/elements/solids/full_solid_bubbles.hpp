@@ -1,7 +1,6 @@
 // The incompatible modes of full solids: how their amplitudes find the least energy, in packs and exactly.
 #pragma once
 
-#include <Eigen/Dense>
 #include <algorithm>
 
 #include "elements/nodal_packs.hpp"
@@ -39,9 +38,9 @@ std::array<Vector3<double>, 3> bubble_gradients(int q, const Reference& referenc
 
 /// Columns of dF (row-major 9) by the amplitudes: dF = F0 dH.
 template <class Shape, class Reference>
-Eigen::Matrix<double, 9, 9> bubble_columns(const Matrix3<double>& centre, int q, const Reference& reference) {
+Dense<9, 9> bubble_columns(const Matrix3<double>& centre, int q, const Reference& reference) {
   const auto gradient = bubble_gradients<Shape>(q, reference);
-  Eigen::Matrix<double, 9, 9> columns;
+  Dense<9, 9> columns;
   for (int m = 0; m < 3; ++m)
     for (int k = 0; k < 3; ++k)
       for (int p = 0; p < 3; ++p)
@@ -52,18 +51,18 @@ Eigen::Matrix<double, 9, 9> bubble_columns(const Matrix3<double>& centre, int q,
 template <class Shape>
 void FullSolid<Shape>::store_flexibility(std::int32_t lane) {
   static constexpr int voigt[9] = {0, 3, 4, 3, 1, 5, 4, 5, 2};  // row-major -> 11 22 33 12 13 23
-  Eigen::Matrix<double, 9, 9> tangent, stiffness = Eigen::Matrix<double, 9, 9>::Zero();
+  Dense<9, 9> tangent, stiffness;
   for (int a = 0; a < 9; ++a)
     for (int b = 0; b < 9; ++b) tangent(a, b) = material_.stiffness[6 * voigt[a] + voigt[b]];
   const LaneReference record = reference(lane);
   for (int q = 0; q < Shape::points; ++q) {
     const auto columns = bubble_columns<Shape>(Matrix3<double>::identity(), q, record);
-    stiffness += record[Record::point(q) + 9] * columns.transpose() * tangent * columns;
+    stiffness += record[Record::point(q) + 9] * (transpose(columns) * tangent * columns);
   }
-  const Eigen::Matrix<double, 9, 9> flexibility = stiffness.inverse();
+  const auto flexibility = inverse(stiffness);
   double* const data =
       records_.data() + static_cast<std::size_t>(lane / pack_size) * pack_size * Record::size + lane % pack_size;
-  for (int i = 0; i < 81; ++i) data[pack_size * (Record::bubble_flexibility + i)] = flexibility.data()[i];
+  for (int i = 0; i < 81; ++i) data[pack_size * (Record::bubble_flexibility + i)] = flexibility.component[i];
 }
 
 // One step of Newton's method with the stiffness of the reference configuration, raised where the moduli have grown, so
@@ -117,36 +116,33 @@ bool FullSolid<Shape>::linearize_with_bubbles(std::int32_t element, const NodalM
                                               std::span<const double> old_history, std::span<double> new_history,
                                               std::span<double> force, std::span<double> stiffness) const {
   constexpr int dofs = 3 * Shape::nodes, most_iterations = 30;
-  using Square = Eigen::Matrix<double, 9, 9, Eigen::RowMajor>;
   const LaneReference record = reference(element);
   const double size = std::cbrt(record[Record::volume]);
   const auto c = coefficients_of<double>(element, motion.position);
-  Eigen::Map<Eigen::Matrix<double, 9, 1>> amplitude(&new_history[first_bubble]);
   std::copy(old_history.begin(), old_history.end(), new_history.begin());
   Tensors<double> stress;
   Tangents tangent;
   FullSolidKinematics<double, Shape> k;
-  Square inner;
+  Dense<9, 9> inner;
   bool settled = false;
   for (int iteration = 0; iteration < most_iterations && !settled; ++iteration) {
     k = kinematics_of(element, motion, new_history);
     for (const double jacobian : k.jacobian)
       if (!(jacobian > 0.0)) return false;
     std::copy(old_history.begin() + own_history, old_history.end(), new_history.begin() + own_history);
-    inner.setZero();
+    inner = {};
     for (int q = 0; q < Shape::points; ++q) {
       material_.law->tangent(k.modified[q].component, quasi_static, law_history(new_history, q), stress[q].component,
                              tangent[q]);
       const auto columns = bubble_columns<Shape>(k.centre, q, record);
-      inner +=
-          record[Record::point(q) + 9] * columns.transpose() * Eigen::Map<const Square>(tangent[q].data()) * columns;
+      inner += record[Record::point(q) + 9] * (transpose(columns) * Dense<9, 9>{tangent[q]} * columns);
     }
     const auto on_bubbles = bubble_forces<Shape>(k.centre, stress, record);
-    Eigen::Matrix<double, 9, 1> residual;
-    for (int i = 0; i < 9; ++i) residual(i) = on_bubbles[i / 3][i % 3];
-    const Eigen::Matrix<double, 9, 1> change = inner.partialPivLu().solve(residual);
-    settled = change.cwiseAbs().maxCoeff() <= 1e-13 * size;
-    if (!settled) amplitude -= change;
+    Dense<9, 1> residual;
+    for (int i = 0; i < 9; ++i) residual(i, 0) = on_bubbles[i / 3][i % 3];
+    const auto change = solution(inner, residual).component;
+    settled = std::ranges::all_of(change, [&](double value) { return std::abs(value) <= 1e-13 * size; });
+    for (int i = 0; i < 9 && !settled; ++i) new_history[first_bubble + i] -= change[i];
   }
   if (!settled) return false;
   new_history[0] = k.mean_jacobian;
@@ -158,20 +154,19 @@ bool FullSolid<Shape>::linearize_with_bubbles(std::int32_t element, const NodalM
   for (int n = 0; n < 3; ++n)
     for (int j = 0; j < 3; ++j) of_modes[n][j] = record[Record::centre + 3 * n + j];
   const auto at_centre = Shape::nodal(of_modes);  // gradients of the shape functions there
-  Eigen::Matrix<double, dofs, dofs> outer = Eigen::Matrix<double, dofs, dofs>::Zero();
-  Eigen::Matrix<double, dofs, 9> mixed = Eigen::Matrix<double, dofs, 9>::Zero();
+  Dense<dofs, dofs> outer;
+  Dense<dofs, 9> mixed;
   for (int q = 0; q < Shape::points; ++q) {
     const double weight = record[Record::point(q) + 9];
     const auto gradient = reference_gradients<Shape>(q, record);
     const auto of_bubbles = bubble_gradients<Shape>(q, record);
-    Eigen::Matrix<double, 9, dofs> columns = Eigen::Matrix<double, 9, dofs>::Zero();
+    Dense<9, dofs> columns;
     for (int node = 0; node < Shape::nodes; ++node) {
       const auto whole = gradient[node] + transpose(k.bubble[q]) * at_centre[node];
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j) columns(3 * i + j, 3 * node + i) = whole[j];
     }
-    const Eigen::Matrix<double, dofs, 9> loaded =
-        weight * columns.transpose() * Eigen::Map<const Square>(tangent[q].data());
+    const auto loaded = weight * (transpose(columns) * Dense<9, 9>{tangent[q]});
     outer += loaded * columns;
     mixed += loaded * bubble_columns<Shape>(k.centre, q, record);
     for (int m = 0; m < 3; ++m) {  // P : dF0 dH
@@ -180,8 +175,8 @@ bool FullSolid<Shape>::linearize_with_bubbles(std::int32_t element, const NodalM
         for (int l = 0; l < 3; ++l) mixed(a, 3 * m + l) += weight * traction[a % 3] * at_centre[a / 3][l];
     }
   }
-  Eigen::Map<Eigen::Matrix<double, dofs, dofs, Eigen::RowMajor>>(stiffness.data()) =
-      outer - mixed * inner.partialPivLu().solve(mixed.transpose());
+  outer -= mixed * solution(inner, transpose(mixed));
+  std::ranges::copy(outer.component, stiffness.begin());
   return true;
 }
 

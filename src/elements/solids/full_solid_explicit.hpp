@@ -1,7 +1,6 @@
 // Reference data and explicit kernel of the fully integrated solids.
 #pragma once
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
@@ -11,6 +10,7 @@
 #include "elements/solids/full_solid_stability.hpp"
 #include "elements/nodal_packs.hpp"
 #include "elements/solids/solid_damping.hpp"
+#include "math/dense.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -28,9 +28,8 @@ std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
   static constexpr auto quadrature = Shape::quadrature();
   std::array<double, Record::size> record{};
   const auto c = Shape::coefficients(nodes);
-  Eigen::Matrix<double, Shape::nodes, Shape::nodes> laplacian =
-      Eigen::Matrix<double, Shape::nodes, Shape::nodes>::Zero();
-  Eigen::Matrix<double, 3, Shape::nodes> mean = Eigen::Matrix<double, 3, Shape::nodes>::Zero();
+  Dense<Shape::nodes, Shape::nodes> laplacian;
+  Dense<3, Shape::nodes> mean;
   double volume = 0.0;
   for (int q = 0; q < Shape::points; ++q) {
     Matrix3<double> jacobian{};
@@ -44,8 +43,7 @@ std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
       for (int j = 0; j < 3; ++j) point[3 * i + j] = cof(j, i) / det;
     point[9] = det * quadrature[q].weight;
     volume += point[9];
-    Eigen::Matrix<double, 3, Shape::nodes>
-        gradient;  // B_I, one direction at a time through the transpose of the coefficients
+    Dense<3, Shape::nodes> gradient;  // B_I, one direction at a time through the transpose of the coefficients
     for (int j = 0; j < 3; ++j) {
       std::array<Vector3<double>, Shape::modes> conjugate{};
       for (int k = 0; k < Shape::modes; ++k)
@@ -54,10 +52,10 @@ std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
       for (int node = 0; node < Shape::nodes; ++node) gradient(j, node) = nodal[node][0];
     }
     mean += point[9] * gradient;
-    for (int node = 0; node < Shape::nodes; ++node) gradient.col(node) *= std::sqrt(inverse_mass_ratio<Shape>(node));
-    laplacian += point[9] * gradient.transpose() * gradient;
+    for (int node = 0; node < Shape::nodes; ++node)
+      for (int j = 0; j < 3; ++j) gradient(j, node) *= std::sqrt(inverse_mass_ratio<Shape>(node));
+    laplacian += point[9] * (transpose(gradient) * gradient);
   }
-  mean /= volume;
   record[Record::volume] = volume;
   if constexpr (has_bubbles<Shape>) {
     Matrix3<double> jacobian;  // at the centre
@@ -71,13 +69,8 @@ std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
         record[Record::bubble + 3 * i + j] = -2.0 * cof(j, i);
       }
   }
-  record[Record::laplacian_bound] =
-      Eigen::SelfAdjointEigenSolver<decltype(laplacian)>(laplacian, Eigen::EigenvaluesOnly)
-          .eigenvalues()(Shape::nodes - 1);
-  const Eigen::Matrix3d metric = mean * mean.transpose();
-  const double largest =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(metric, Eigen::EigenvaluesOnly).eigenvalues()(2);
-  record[Record::length] = 2.0 / std::sqrt(Shape::nodes * largest);
+  record[Record::laplacian_bound] = largest_eigenvalue(laplacian);
+  record[Record::length] = 2.0 * volume / std::sqrt(Shape::nodes * largest_eigenvalue(mean * transpose(mean)));
   return record;
 }
 
@@ -85,17 +78,17 @@ std::array<double, FullSolidRecord<Shape>::size> full_solid_record(
 template <class Shape>
 double natural_laplacian() {
   static constexpr auto quadrature = Shape::quadrature();
-  Eigen::Matrix<double, Shape::nodes, Shape::nodes> laplacian = Eigen::Matrix<double, Shape::nodes, Shape::nodes>::Zero();
+  Dense<Shape::nodes, Shape::nodes> laplacian;
   for (int q = 0; q < Shape::points; ++q)
     for (int j = 0; j < 3; ++j) {
       std::array<Vector3<double>, Shape::modes> derivative{};
       for (int k = 0; k < Shape::modes; ++k) derivative[k][0] = quadrature[q].derivative[k][j];
       const auto nodal = Shape::nodal(derivative);
-      Eigen::Matrix<double, Shape::nodes, 1> gradient;
-      for (int node = 0; node < Shape::nodes; ++node) gradient(node) = std::sqrt(inverse_mass_ratio<Shape>(node)) * nodal[node][0];
-      laplacian += gradient * gradient.transpose();
+      Dense<Shape::nodes, 1> gradient;
+      for (int node = 0; node < Shape::nodes; ++node) gradient(node, 0) = std::sqrt(inverse_mass_ratio<Shape>(node)) * nodal[node][0];
+      laplacian += gradient * transpose(gradient);
     }
-  return Eigen::SelfAdjointEigenSolver<decltype(laplacian)>(laplacian, Eigen::EigenvaluesOnly).eigenvalues()(Shape::nodes - 1);
+  return largest_eigenvalue(laplacian);
 }
 
 template <class Shape>

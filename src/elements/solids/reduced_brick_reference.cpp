@@ -1,17 +1,17 @@
 #include "elements/solids/reduced_brick_reference.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+
+#include "math/dense.hpp"
 
 namespace balocco {
 
 namespace {
 
-using Matrix33 = Eigen::Matrix3d;
-using Matrix66 = Eigen::Matrix<double, 6, 6, Eigen::RowMajor>;
-using Matrix12 = Eigen::Matrix<double, 12, 12>;
-using Gradients = Eigen::Matrix<double, 3, 7>;
+using Matrix33 = Dense<3, 3>;
+using Matrix66 = Dense<6, 6>;
+using Gradients = Dense<3, 7>;
 
 constexpr int voigt[6][2] = {{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}};
 
@@ -20,52 +20,81 @@ constexpr int class_strains[3][3] = {{0, 1, 3}, {0, 2, 4}, {1, 2, 5}};
 
 /// Moduli in natural axes: S^ab = (A^a . e_i)(A^b . e_j) S_ij with the duals A^a of the columns of `axes`.
 Matrix66 natural_compliance(const SolidMaterial& material, const Matrix33& axes) {
-  const Matrix33 dual = axes.inverse();
+  const Matrix33 dual = inverse(axes);
   Matrix66 transform;
   for (int a = 0; a < 6; ++a) {
-    const auto first = dual.row(voigt[a][0]), second = dual.row(voigt[a][1]);
+    const auto first = [&](int i) { return dual(voigt[a][0], i); };
+    const auto second = [&](int i) { return dual(voigt[a][1], i); };
     for (int b = 0; b < 6; ++b) {
       const int i = voigt[b][0], j = voigt[b][1];
       transform(a, b) = i == j ? first(i) * second(j) : first(i) * second(j) + first(j) * second(i);
     }
   }
-  const Matrix66 stiffness = Eigen::Map<const Matrix66>(material.stiffness.data());
-  return (transform * stiffness * transform.transpose()).inverse();
+  return inverse(transform * Matrix66{material.stiffness} * transpose(transform));
+}
+
+/// The columns of `axes` in orthonormal axes that lie along the first, in the plane of the first two, and normal to it.
+Matrix33 in_orthonormal_axes(const Matrix33& axes) {
+  Matrix33 local, q = axes;
+  for (int j = 0; j < 3; ++j) {
+    for (int i = 0; i < j; ++i) {
+      for (int c = 0; c < 3; ++c) local(i, j) += q(c, i) * q(c, j);
+      for (int c = 0; c < 3; ++c) q(c, j) -= local(i, j) * q(c, i);
+    }
+    for (int c = 0; c < 3; ++c) local(j, j) += q(c, j) * q(c, j);
+    local(j, j) = std::sqrt(local(j, j));
+    for (int c = 0; c < 3; ++c) q(c, j) /= local(j, j);
+  }
+  return local;
+}
+
+template <int size>
+double largest_row_sum(const Dense<size, size>& matrix) {
+  double largest = 0.0;
+  for (int i = 0; i < size; ++i) {
+    double sum = 0.0;
+    for (int j = 0; j < size; ++j) sum += std::abs(matrix(i, j));
+    largest = std::max(largest, sum);
+  }
+  return largest;
 }
 
 /// Largest eigenvalue of the stiffness on q, bounded by row sums in the orthonormal axes nearest the element's (exact
 /// for boxes).
-double hourglass_bound(const std::array<Matrix33, 3>& classes, const Eigen::Vector3d& last, const Matrix33& axes) {
-  const Matrix33 local = Matrix33(Eigen::HouseholderQR<Matrix33>(axes).householderQ()).transpose() * axes;
+double hourglass_bound(const std::array<Matrix33, 3>& classes, const Vector3<double>& last, const Matrix33& axes) {
+  const auto local = in_orthonormal_axes(axes);
   // Rows of a class's strains on (q1, q2, q3), in local components: c_i . q_a.
   static constexpr int mode[3][2] = {{1, 0}, {2, 0}, {2, 1}};  // modes of the two normal strains
-  Eigen::Matrix<double, 9, 9> stiffness = Eigen::Matrix<double, 9, 9>::Zero();
+  Dense<9, 9> stiffness;
   for (int c = 0; c < 3; ++c) {
     const int i = voigt[class_strains[c][2]][0], j = voigt[class_strains[c][2]][1];
     const int mode_i = mode[c][0], mode_j = mode[c][1];
-    Eigen::Matrix<double, 3, 9> strain = Eigen::Matrix<double, 3, 9>::Zero();
-    strain.block<1, 3>(0, 3 * mode_i) = local.col(i).transpose();
-    strain.block<1, 3>(1, 3 * mode_j) = local.col(j).transpose();
-    strain.block<1, 3>(2, 3 * mode_j) = local.col(i).transpose();
-    strain.block<1, 3>(2, 3 * mode_i) = local.col(j).transpose();
-    stiffness += strain.transpose() * classes[c] * strain;
+    Dense<3, 9> strain;
+    for (int k = 0; k < 3; ++k) {
+      strain(0, 3 * mode_i + k) = local(k, i);
+      strain(1, 3 * mode_j + k) = local(k, j);
+      strain(2, 3 * mode_j + k) = local(k, i);
+      strain(2, 3 * mode_i + k) = local(k, j);
+    }
+    stiffness += transpose(strain) * classes[c] * strain;
   }
-  const Matrix33 fourth = local * last.asDiagonal() * local.transpose();
-  return std::max(stiffness.cwiseAbs().rowwise().sum().maxCoeff(), fourth.cwiseAbs().rowwise().sum().maxCoeff());
+  Matrix33 fourth;
+  for (int i = 0; i < 3; ++i) fourth(i, i) = last[i];
+  return std::max(largest_row_sum(stiffness), largest_row_sum(local * fourth * transpose(local)));
 }
 
 /// Bound of cos^2 of the angle between the uniform strain operator and the hourglass operator, both acting on c_1 ..
 /// c_7.
 double overlap(const Gradients& gradients, const Gradients& coefficients) {
-  Eigen::Matrix<double, 4, 7> hourglass = Eigen::Matrix<double, 4, 7>::Zero();
+  Dense<4, 7> hourglass;
   for (int a = 0; a < 4; ++a) {
     hourglass(a, 3 + a) = 1.0;
-    for (int k = 0; k < 7; ++k) hourglass(a, k) -= gradients.col(k).dot(coefficients.col(3 + a));
+    for (int k = 0; k < 7; ++k)
+      for (int i = 0; i < 3; ++i) hourglass(a, k) -= gradients(i, k) * coefficients(i, 3 + a);
   }
-  const Eigen::Matrix<double, 3, 4> cross = gradients * hourglass.transpose();
-  const Matrix33 uniform = gradients * gradients.transpose();
-  const Eigen::Matrix4d gram = hourglass * hourglass.transpose();
-  return std::min(1.0, (uniform.inverse() * cross * gram.inverse() * cross.transpose()).trace());
+  const auto cross = gradients * transpose(hourglass);
+  const auto shared = inverse(gradients * transpose(gradients)) * cross * inverse(hourglass * transpose(hourglass)) * transpose(cross);
+  return std::min(1.0, shared(0, 0) + shared(1, 1) + shared(2, 2));
 }
 
 /// HOURGLASS=STIFFNESS: energy k |q|^2 / 2 with 0.5 % of the dilatational stiffness of the uniform strain.
@@ -85,8 +114,8 @@ std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeom
       if (k >= 3) record[brick_record::hourglass_map + 3 * (k - 3) + i] = coefficients(i, k);
     }
   }
-  const Matrix33 metric = gradients * gradients.transpose();
-  const double largest = Eigen::SelfAdjointEigenSolver<Matrix33>(metric, Eigen::EigenvaluesOnly).eigenvalues()(2);
+  const Matrix33 metric = gradients * transpose(gradients);
+  const double largest = largest_eigenvalue(metric);
   record[brick_record::volume] = geometry.volume;
   record[brick_record::length] = 2.0 / std::sqrt(largest);
   record[brick_record::gradient_bound] = largest;
@@ -95,15 +124,17 @@ std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeom
   double* stiffness = &record[brick_record::stiffness];
   if (section.hourglass == HourglassControl::stiffness) {
     const double modulus = material.volumetric_modulus + 2.0 * material.shear_modulus;
-    const double density = section.hourglass_scale * stiffness_control_factor * modulus * metric.trace();
+    const double density = section.hourglass_scale * stiffness_control_factor * modulus * (metric(0, 0) + metric(1, 1) + metric(2, 2));
     stiffness[0] = density * geometry.volume;
     record[brick_record::hourglass_bound] = density;
     return record;
   }
-  const Matrix33 axes = coefficients.leftCols<3>();
+  Matrix33 axes;
+  for (int i = 0; i < 3; ++i)
+    for (int k = 0; k < 3; ++k) axes(i, k) = coefficients(i, k);
   if (flows) {  // each vector is in two classes, of which plane stress of both normal strains is the stiffest: 2/3 E / (1 - nu)
-    Eigen::Map<Matrix33> sides(stiffness);
-    sides = axes;
+    for (int k = 0; k < 3; ++k)
+      for (int i = 0; i < 3; ++i) stiffness[3 * k + i] = axes(i, k);
     const double lame = material.stiffness[1], shear = material.stiffness[21];
     const double biaxial = 2.0 * shear * (3.0 * lame + 2.0 * shear) / (lame + 2.0 * shear);
     record[brick_record::hourglass_bound] = section.hourglass_scale * (2.0 / 3.0) * biaxial;
@@ -115,15 +146,15 @@ std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeom
     Matrix33 block;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) block(i, j) = compliance(class_strains[c][i], class_strains[c][j]);
-    classes[c] = section.hourglass_scale / 3.0 * block.inverse();
+    classes[c] = section.hourglass_scale / 3.0 * inverse(block);
     int entry = 6 * c;
     for (int i = 0; i < 3; ++i)
       for (int j = i; j < 3; ++j) stiffness[entry++] = geometry.volume * classes[c](i, j);
   }
-  Eigen::Vector3d last;
+  Vector3<double> last;
   for (int i = 0; i < 3; ++i) {
-    last(i) = section.hourglass_scale / 9.0 / compliance(i, i);
-    stiffness[18 + i] = geometry.volume * last(i);
+    last[i] = section.hourglass_scale / 9.0 / compliance(i, i);
+    stiffness[18 + i] = geometry.volume * last[i];
   }
   record[brick_record::hourglass_bound] = hourglass_bound(classes, last, axes);
   return record;
