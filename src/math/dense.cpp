@@ -11,6 +11,14 @@ using Rows = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMaj
 
 }  // namespace
 
+void multiply_dense(std::span<const double> a, std::span<const double> b, std::span<double> product, int inner, int columns) {
+  const auto rows = static_cast<int>(product.size()) / columns;
+  std::ranges::fill(product, 0.0);
+  for (int i = 0; i < rows; ++i)
+    for (int k = 0; k < inner; ++k)
+      for (int j = 0; j < columns; ++j) product[columns * i + j] += a[inner * i + k] * b[columns * k + j];
+}
+
 void solve_dense(std::span<const double> a, std::span<double> b, int columns) {
   const auto size = static_cast<Eigen::Index>(b.size()) / columns;
   const Eigen::Map<const Rows> matrix(a.data(), size, size);

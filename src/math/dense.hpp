@@ -41,12 +41,13 @@ struct Dense {
   }
 };
 
+/// product = A B, all row-major; A has `inner` columns and B has `columns`.
+void multiply_dense(std::span<const double> a, std::span<const double> b, std::span<double> product, int inner, int columns);
+
 template <int rows, int inner, int columns>
 Dense<rows, columns> operator*(const Dense<rows, inner>& a, const Dense<inner, columns>& b) {
   Dense<rows, columns> product;
-  for (int i = 0; i < rows; ++i)
-    for (int k = 0; k < inner; ++k)
-      for (int j = 0; j < columns; ++j) product(i, j) += a(i, k) * b(k, j);
+  multiply_dense(a.component, b.component, product.component, inner, columns);
   return product;
 }
 

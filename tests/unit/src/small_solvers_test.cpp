@@ -5,6 +5,7 @@
 #include <random>
 
 #include "math/definite_solver.hpp"
+#include "math/dense.hpp"
 #include "math/pivoting_solver.hpp"
 #include "math/rotation.hpp"
 #include "math/six.hpp"
@@ -69,6 +70,25 @@ TEST(Six, TurnedMatrixTurnsPairs) {
   const auto product = matrix * back;
   const auto expected = pair_of(q * product.translation(), q * product.rotation()), got = turned(q, matrix) * pair;
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(got[i], expected[i], 1e-14 * 6e8);
+}
+
+TEST(Dense, ProductsInversesAndEigenvaluesAgree) {
+  Dense<3, 8> g;
+  for (int i = 0; i < 24; ++i) g.component[i] = std::sin(1.0 + 3.0 * i + 0.1 * i * i);
+  const auto product = transpose(g) * g;
+  double trace = 0.0, sum = 0.0;
+  for (int i = 0; i < 8; ++i)
+    for (int j = 0; j < 8; ++j) {
+      const double expected = g(0, i) * g(0, j) + g(1, i) * g(1, j) + g(2, i) * g(2, j);
+      EXPECT_NEAR(product(i, j), expected, 1e-15);
+      if (i == j) trace += expected;
+    }
+  for (const double value : symmetric_eigenvalues(product.component, 8)) sum += value;
+  EXPECT_NEAR(sum, trace, 1e-13);
+  EXPECT_NEAR(largest_eigenvalue(product), largest_eigenvalue(g * transpose(g)), 1e-13);
+  const auto small = g * transpose(g), one = small * inverse(small);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) EXPECT_NEAR(one(i, j), i == j ? 1.0 : 0.0, 1e-12);
 }
 
 }  // namespace
