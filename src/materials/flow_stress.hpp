@@ -83,6 +83,14 @@ struct FlowStress {
   /// The least stress at rate zero, at whatever plastic strain.
   double least() const;
 
+  /// Mises stress above which a point yields. One that rests on its yield surface is elastic until it moves on: rounding does not
+  /// choose its tangent, with which a load that turns back would find no equilibrium.
+  template <class V>
+  V yield_stress(const V& p) const {
+    constexpr double beyond_rounding = 1.0 + 1e-10;
+    return beyond_rounding * static_curve(p).value;
+  }
+
   /// At rate zero.
   template <class V>
   Sloped<V> static_curve(const V& p) const {

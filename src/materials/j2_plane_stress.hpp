@@ -112,7 +112,7 @@ struct J2PlaneStress {
     const auto mises_of = [](const auto& p, const auto& q) { return square_root(0.25 * (p * p) + 0.75 * (q * q)); };
     const V p = value_of(now.sum), q = value_of(across), before = value_of(state.equivalent_plastic_strain);
     const V trial_mises = mises_of(p, q);
-    const auto yields = trial_mises > flow.static_curve(before).value;
+    const auto yields = trial_mises > flow.yield_stress(before);
     if (!any(yields)) return;
 
     const double along = 0.5 * sum_modulus_, sideways = 3.0 * general.solid.shear;

@@ -226,7 +226,7 @@ void J2Plasticity::flow_back(const SymmetricTensor<T>& trial_strain, SymmetricTe
   old.equivalent_plastic_strain = value_of(state.equivalent_plastic_strain);
   for (std::size_t i = 0; i < back_stresses.size(); ++i) old.back_stress[i] = j2_detail::values(state.back_stress[i]);
   const V trial_mises = value_of(trial.mises);
-  const auto yields = trial_mises > flow.static_curve(old.equivalent_plastic_strain).value;
+  const auto yields = trial_mises > flow.yield_stress(old.equivalent_plastic_strain);
   if (!any(yields)) return;
 
   const SymmetricTensor<V> fixed = j2_detail::values(deviator);
