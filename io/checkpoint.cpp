@@ -39,7 +39,7 @@ int history_columns(const TableRows& rows, const Communicator& communicator) {
 
 /// Upper bound of the size of a checkpoint.
 std::size_t checkpoint_bytes(const Model& model, const Communicator& communicator, ElementGroups groups) {
-  std::size_t values = static_cast<std::size_t>(model.nodes.size()) * (6 + work_values + rotation_values);
+  std::size_t values = static_cast<std::size_t>(model.nodes.size()) * (6 + work_values + rotation_values + alpha_values);
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
     values += static_cast<std::size_t>(rows.exchange.total()) * history_columns(rows, communicator);
   }
@@ -60,6 +60,8 @@ void write_tables(ParallelFile& file, const Model& model, const Communicator& co
   write("velocity", nodes.exchange, vectors_of(state.velocity, nodes.nodes), 3);
   if (communicator.any(domain.turning > 0))
     write("rotation", nodes.exchange, rotations_of(state, nodes.nodes), rotation_values);
+  if (communicator.any(!state.alpha_memory.empty()))
+    write("alpha_memory", nodes.exchange, alpha_memories_of(state, nodes.nodes), alpha_values);
   std::vector<double> work(nodes.nodes.size() * work_values, 0.0);
   for (std::size_t i = 0; i < nodes.nodes.size() && !state.nodal_work.empty(); ++i) {
     const NodalWork& done = state.nodal_work[nodes.nodes[i]];
@@ -98,6 +100,9 @@ void write_bodies(const Hdf5File& file, const State& state) {
     file.write(fmt::format("/rigid_{}_offsets", b), {body.nodes.size(), 3}, offsets);
   }
   file.write("/rigid_bodies", {state.rigid_bodies.size(), body_values}, motions);
+  std::vector<double> memories(6 * state.alpha_memory_of_bodies.size());
+  for (std::size_t b = 0; b < state.alpha_memory_of_bodies.size(); ++b) pack(state.alpha_memory_of_bodies[b], memories.begin() + 6 * b);
+  if (!memories.empty()) file.write("/alpha_memory_of_bodies", {state.alpha_memory_of_bodies.size(), 6}, memories);
 }
 
 /// What all ranks know together of constraints: those that hold one hold the same bits of it, the others zero.
@@ -205,6 +210,13 @@ void read_bodies(const Hdf5File& file, State& state) {
   }
 }
 
+void read_body_memories(const Hdf5File& file, State& state) {
+  if (!file.exists("/alpha_memory_of_bodies")) return;
+  const auto memories = file.read("/alpha_memory_of_bodies");
+  state.alpha_memory_of_bodies.clear();
+  for (std::size_t at = 0; at < memories.size(); at += 6) state.alpha_memory_of_bodies.push_back(unpack_alpha(&memories[at]));
+}
+
 void read_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
                  ElementGroups groups, State& state) {
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::all);
@@ -239,14 +251,20 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
 /// `header`: which of the functions above reads what belongs to no table.
 void read_all(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain, ElementGroups groups,
               State& state, void (*header)(const Hdf5File&, const std::string&, const Model&, State&)) {
+  bool has_alpha_memory = false;
   communicator.together([&] {
     const auto file = open_checkpoint(path);
     header(*file, path, model, state);
     read_bodies(*file, state);
+    read_body_memories(*file, state);
+    has_alpha_memory = file->exists("/alpha_memory");
     read_constraint_rows(*file, state);
   });
   ParallelFile file(path, communicator, ParallelFile::Mode::read);
   read_tables(file, model, communicator, domain, groups, state);
+  if (!has_alpha_memory) return;
+  const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::all);
+  set_alpha_memories(nodes.nodes, nodes.exchange.from_slab(file.read("alpha_memory", nodes.exchange, alpha_values), alpha_values), domain, state);
 }
 
 }  // namespace

@@ -383,6 +383,13 @@ void Writer::contact() {
   }
 }
 
+void Writer::initial_displacements() {
+  for (std::size_t k = 0; k < model_.initial_displacements.size(); ++k) {
+    const auto& [nodes, dof, value, location] = model_.initial_displacements[k];
+    line("*INITIAL CONDITIONS, TYPE=DISPLACEMENT\n{}, {}, {}", quoted(node_set_of(nodes, fmt::format("_DISPLACEMENT-{}", k + 1))), dof + 1, value);
+  }
+}
+
 void Writer::initial_velocities() {
   for (std::size_t k = 0; k < model_.initial_velocities.size(); ++k) {
     const auto& velocity = model_.initial_velocities[k];
@@ -426,6 +433,7 @@ std::string Writer::write() {
   sections();
   rigid_bodies();
   contact();
+  initial_displacements();
   initial_velocities();
   initial_fields();
   for (std::size_t row = 0; row < model_.steps.size(); ++row) step(row);

@@ -63,6 +63,28 @@ void set_rotations(const std::vector<std::int32_t>& nodes, std::span<const doubl
   }
 }
 
+AlphaMemory unpack_alpha(const double* v) { return {{v[0], v[1], v[2]}, {v[3], v[4], v[5]}}; }
+
+std::vector<double> alpha_memories_of(const State& state, const std::vector<std::int32_t>& nodes) {
+  std::vector<double> values(nodes.size() * alpha_values, 0.0);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto node = static_cast<std::size_t>(nodes[i]);
+    if (node < state.alpha_memory.size()) pack(state.alpha_memory[node], values.begin() + i * alpha_values);
+    if (node < state.alpha_memory_of_spins.size()) pack(state.alpha_memory_of_spins[node], values.begin() + i * alpha_values + 6);
+  }
+  return values;
+}
+
+void set_alpha_memories(const std::vector<std::int32_t>& nodes, std::span<const double> values, const Domain& domain, State& state) {
+  state.alpha_memory.resize(static_cast<std::size_t>(domain.size()));
+  state.alpha_memory_of_spins.resize(static_cast<std::size_t>(domain.turning));
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const auto node = static_cast<std::size_t>(nodes[i]);
+    state.alpha_memory[node] = unpack_alpha(values.data() + i * alpha_values);
+    if (nodes[i] < domain.turning) state.alpha_memory_of_spins[node] = unpack_alpha(values.data() + i * alpha_values + 6);
+  }
+}
+
 std::vector<double> histories_of(const TableRows& rows, const State& state, int columns) {
   std::vector<double> values(rows.exchange.held() * columns, 0.0);
   std::size_t first = 0;

@@ -1,6 +1,7 @@
 // State as rows of doubles, as checkpoints keep it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -19,6 +20,8 @@ constexpr int contact_values = 13;
 constexpr int work_values = 2;
 /// What nodes that turn have beside positions and velocities: orientation 4, angular velocity 3, rotation 3.
 constexpr int rotation_values = 10;
+/// What implicit dynamics remember of a node's displacement and of its rotation: acceleration 3 and force 3 each.
+constexpr int alpha_values = 12;
 
 std::array<double, contact_values> pack(const ContactPoint& point);
 ContactPoint unpack_contact(const double* values);
@@ -32,6 +35,16 @@ void set_vectors(const std::vector<std::int32_t>& nodes, std::span<const double>
 /// Those of the nodes that turn; the others have zeros.
 std::vector<double> rotations_of(const State& state, const std::vector<std::int32_t>& nodes);
 void set_rotations(const std::vector<std::int32_t>& nodes, std::span<const double> values, State& state);
+
+/// Memories of the alpha method; a body's has 6 values.
+template <class Value>
+void pack(const AlphaMemory& memory, Value next) {
+  next = std::ranges::copy(memory.acceleration, next).out;
+  std::ranges::copy(memory.force, next);
+}
+AlphaMemory unpack_alpha(const double* values);
+std::vector<double> alpha_memories_of(const State& state, const std::vector<std::int32_t>& nodes);
+void set_alpha_memories(const std::vector<std::int32_t>& nodes, std::span<const double> values, const Domain& domain, State& state);
 
 /// History of the elements held in a table, `columns` an element (shorter histories end in zeros).
 std::vector<double> histories_of(const TableRows& rows, const State& state, int columns);

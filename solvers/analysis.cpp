@@ -85,6 +85,10 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
   for (auto* array : {&current.position, &current.velocity, &acceleration, &reaction}) array->assign(size, 0.0);
   for (std::int32_t node = 0; node < domain.size(); ++node)
     std::copy_n(model.nodes.coordinates[domain.node_row[node]].data(), 3, &current.position[4 * node]);
+  for (const auto& initial : model.initial_displacements)
+    for (const auto row : initial.nodes)
+      if (const auto node = domain.local_node[row]; node >= 0)
+        current.position[4 * node + initial.dof] = model.nodes.coordinates[row][initial.dof] + initial.value;
   const std::size_t turning = 4 * static_cast<std::size_t>(domain.turning);
   for (auto* array : {&current.orientation, &current.angular_velocity, &current.rotation, &angular_acceleration, &reaction_moment})
     array->assign(turning, 0.0);
@@ -245,13 +249,14 @@ const std::vector<double>& Analysis::loaded_share(const BodyLoad& load) const {
   return whole;
 }
 
-/// Steps are linear until one has large displacements, needs iterations for contact, for laws that remember or for springs with
+/// Steps are linear until one has large displacements, needs iterations for contact, for laws that remember, for ropes or for springs with
 /// tables, or ties nodes where others have moved.
 bool Analysis::stays_linear(const Step& step) const {
   if (!current.linear || step.is_perturbation()) return current.linear;
   if (std::ranges::any_of(model.materials, [](const auto& material) { return !material.options.empty(); })) return false;
   if (std::ranges::any_of(model.sections, [](const auto& section) { return !section.spring.table.empty(); })) return false;
-  const auto* procedure = std::get_if<StaticProcedure>(&step.procedure);
+  if (std::ranges::any_of(constraints, [](const auto& constraint) { return constraint->is_one_sided(); })) return false;
+  const auto* procedure = step.implicit_increments();
   const bool ties_moved_nodes =
       current.total_time > 0.0 && std::ranges::any_of(step.attachments, [](const auto& change) { return !change.release; });
   return procedure != nullptr && !procedure->nonlinear_geometry && step.active_contact_pairs.empty() && !ties_moved_nodes;
@@ -281,6 +286,7 @@ void Analysis::leave_linear_geometry(const Step& step) {
 }
 
 void Analysis::start_step(const Step& step) {
+  kinetic_energy.reset();
   if (current.linear && !stays_linear(step)) leave_linear_geometry(step);
   apply_attachments(step);
   for (std::size_t pair = 0; pair < contacts.size(); ++pair) {

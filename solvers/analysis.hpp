@@ -3,6 +3,7 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <tuple>
@@ -51,6 +52,7 @@ class Analysis : public ResultSource {
   std::vector<RotaryTensor> rotary_tensors;
   double undeformed_increment = 1e300;             // smallest stable increment of the undeformed elements, over all ranks
   NodalDirections directions;
+  std::vector<Mode> modes;                         // of the last frequency step of this run
   State current;
 
   /// What happens once when a step starts afresh: attaches and releases what it says, from where the nodes stand; contact
@@ -83,6 +85,7 @@ class Analysis : public ResultSource {
   std::vector<std::array<double, 6>> body_reaction;      // per rigid body: reaction force and moment at the reference node
   std::vector<Point> body_angular_acceleration;          // per rigid body
   double output_increment = 0.0;       // explicit: the increment across which they accelerate
+  std::optional<double> kinetic_energy;  // implicit dynamics: of this rank's consistent mass; none: that of the lumped one
   /// Explicit: work that State::nodal_work already counts although it belongs to the first half of the increment to come, as
   /// velocities do; per local node, filled with the other output.
   std::vector<NodalWork> work_ahead;
@@ -115,6 +118,7 @@ class Analysis : public ResultSource {
   EnergyBalance sum_energies() const;
   void apply_attachments(const Step& step);
   void find_acting_elements();
+  void add_kinetic_energy(ExactSum& sum) const;
   void add_kinetic_energy_of_rotary_inertia(ExactSum& sum) const;
   void sum_rotary_inertia();
 

@@ -12,13 +12,21 @@ namespace balocco {
 
 namespace {
 
-/// Velocity at the present instant: half an increment before the half-step value.
+/// Time by which the state's velocities are ahead of its positions: half an explicit increment.
+double lead(const Analysis& analysis) {
+  const auto &steps = analysis.model.steps;
+  const auto step = static_cast<std::size_t>(analysis.current.step);
+  const bool is_explicit = step < steps.size() && std::holds_alternative<ExplicitProcedure>(steps[step].procedure);
+  return is_explicit ? 0.5 * analysis.current.time_increment : 0.0;
+}
+
+/// Velocity at the present instant.
 Point velocity_now(const Analysis& analysis, std::int32_t node) {
   const auto& state = analysis.current;
   Point velocity{};
   if (state.dynamic)
     for (int i = 0; i < 3; ++i)
-      velocity[i] = state.velocity[4 * node + i] - 0.5 * state.time_increment * analysis.acceleration[4 * node + i];
+      velocity[i] = state.velocity[4 * node + i] - lead(analysis) * analysis.acceleration[4 * node + i];
   return velocity;
 }
 
@@ -111,10 +119,10 @@ Point entry(const std::vector<double>& nodal, std::int32_t node) {
   return {nodal[4 * node], nodal[4 * node + 1], nodal[4 * node + 2]};
 }
 
-/// Angular velocity at the present instant: half an increment before the half-step value.
+/// Angular velocity at the present instant.
 Point spin_now(const Analysis& analysis, const Point& half_step, const Point& acceleration) {
   Point now = half_step;
-  for (int i = 0; i < 3; ++i) now[i] -= 0.5 * analysis.current.time_increment * acceleration[i];
+  for (int i = 0; i < 3; ++i) now[i] -= lead(analysis) * acceleration[i];
   return now;
 }
 
@@ -315,6 +323,29 @@ void Analysis::for_each_energies(std::size_t index, Visit visit) const {
   }
 }
 
+/// That of the explicit loop: of lumped masses, and as central differences conserve it.
+void Analysis::add_kinetic_energy(ExactSum& sum) const {
+  const auto add = [&](double addend) {
+    if (addend != 0.0) sum.add(addend);
+  };
+  for (std::int32_t node = 0; node < domain.size(); ++node) {
+    if (!domain.owned[node]) continue;
+    const auto v = velocity_now(*this, node);
+    add(0.5 * nodal_mass[node] * conserved_square(*this, v.data(), &acceleration[4 * node]));
+    if (node >= domain.turning) continue;
+    const auto w = spin_of_node(*this, node);
+    add(0.5 * rotary_inertia[node] * conserved_square(*this, w.data(), &angular_acceleration[4 * node]));
+  }
+  add_kinetic_energy_of_rotary_inertia(sum);
+  for (const auto& given : rotary_tensors) {
+    if (!domain.owned[given.node] || reference_of(given.node) >= 0) continue;
+    const double* const q = &current.orientation[4 * given.node];
+    const Vector3<double> spin{spin_of_node(*this, given.node)};
+    const auto in_reference = transpose(rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]})) * spin;
+    sum.add(0.5 * dot(in_reference, given.tensor * in_reference));
+  }
+}
+
 EnergyBalance Analysis::sum_energies() const {
   enum { kinetic, strain, hourglass, viscous, plastic, friction, contact_springs, work, count };
   std::array<ExactSum, count> sums;
@@ -329,26 +360,13 @@ EnergyBalance Analysis::sum_energies() const {
       add(viscous, energies.viscous);
       add(plastic, energies.plastic);
     });
+  kinetic_energy ? sums[kinetic].add(*kinetic_energy) : add_kinetic_energy(sums[kinetic]);
   for (std::int32_t node = 0; node < domain.size(); ++node) {
     if (!domain.owned[node]) continue;
-    const auto v = velocity_now(*this, node);
-    add(kinetic, 0.5 * nodal_mass[node] * conserved_square(*this, v.data(), &acceleration[4 * node]));
-    if (node < domain.turning) {
-      const auto w = spin_of_node(*this, node);
-      add(kinetic, 0.5 * rotary_inertia[node] * conserved_square(*this, w.data(), &angular_acceleration[4 * node]));
-    }
     add(work, current.nodal_work[node].external);
     add(viscous, current.nodal_work[node].damping);
     add(work, -work_ahead[node].external);
     add(viscous, -work_ahead[node].damping);
-  }
-  add_kinetic_energy_of_rotary_inertia(sums[kinetic]);
-  for (const auto& given : rotary_tensors) {
-    if (!domain.owned[given.node] || reference_of(given.node) >= 0) continue;
-    const double* const q = &current.orientation[4 * given.node];
-    const Vector3<double> spin{spin_of_node(*this, given.node)};
-    const auto in_reference = transpose(rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]})) * spin;
-    sums[kinetic].add(0.5 * dot(in_reference, given.tensor * in_reference));
   }
   for_each_contact_point(*this, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint& point,
                                     const RigidBodyState& master) {

@@ -164,7 +164,7 @@ void ExplicitStep::prepare_start() {
   last_increment_ = next_increment_ = 0.0;
   const auto before = analysis_.model.general_step_before(state.step);
   const bool follows_static =  // an import may bring motion along
-      before < 0 ? !state.dynamic : !std::holds_alternative<ExplicitProcedure>(analysis_.model.steps[before].procedure);
+      before < 0 ? !state.dynamic : !analysis_.model.steps[before].is_dynamic();
   if (follows_static) {
     std::fill(state.velocity.begin(), state.velocity.end(), 0.0);
     std::fill(state.angular_velocity.begin(), state.angular_velocity.end(), 0.0);

@@ -241,6 +241,7 @@ void FrequencyStep::run() {
     for (const auto& pair : solver.find(wanted)) modes.push_back(mode_of(pair, static_cast<std::int32_t>(modes.size()) + 1));
   system_.restore(here);
   for (const auto& mode : modes) observer_.mode_found(mode);
+  analysis_.modes = modes;
   log_table(modes);
   log_stability(modes, negative, solver.small_shift());
   observer_.log(fmt::format("  {:.2f} s", MPI_Wtime() - begin));

@@ -40,6 +40,10 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   force_sum_ = {};
   inverted_element_ = -1;
   stiffness_.start(request.motion);
+  if (dynamics_) {
+    dynamics_->follow();
+    if (request.inertia) stiffness_.set_weight(dynamics_->tangent_weight());
+  }
 
   bool sound = true;
   add_elements(request.increment, sound);
@@ -50,17 +54,50 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   add_contact(request.contact_sticks);
   add_constraints();
   add_stabilization(request);
+  if (dynamics_) dynamics_->add_damping(stiffness_, residual_);
   exchange_.sum(residual_);
   exchange_.sum(external_);
   for (std::size_t slot = 0; slot < residual_.size(); ++slot) residual_[slot] -= external_[slot];
-  gather_at_bodies();
-  turn_into_slot_directions();
+  // A linear step keeps the arms of bodies as they were.
+  if (dynamics_ && analysis_.current.linear) stiffness_.set_weight(0.0);
+  gather_at_bodies(residual_);
+  turn_into_slot_directions(residual_);
+  if (dynamics_) add_dynamics(request);
   stiffness_.finish();
 
   analysis_.communicator.sum(std::span<double>(force_sum_));
   average_force_ = force_sum_[1] > 0.0 ? force_sum_[0] / force_sum_[1] : 0.0;
   for (const auto slot : map_.owned_slots()) sound = sound && std::isfinite(residual_[slot]);
   return everywhere_sound(sound);
+}
+
+/// Damping came with the forces; what is left are their weights, and inertia.
+void ImplicitSystem::add_dynamics(const AssemblyRequest& request) {
+  forces_ = residual_;
+  inertia_.assign(residual_.size(), 0.0);
+  stiffness_.set_weight(request.inertia ? 1.0 : 0.0);
+  dynamics_->add_inertia(&stiffness_, inertia_);
+  for (std::size_t slot = 0; slot < inertia_.size(); ++slot) {
+    force_sum_[0] += std::abs(inertia_[slot]) / lever_[slot];
+    force_sum_[1] += inertia_[slot] != 0.0 ? 1.0 : 0.0;
+  }
+  dynamics_->add_body_stiffness(stiffness_);
+  exchange_.sum(inertia_);
+  if (analysis_.current.linear || dynamics_->finds_accelerations()) stiffness_.set_weight(0.0);
+  gather_at_bodies(inertia_);
+  turn_into_slot_directions(inertia_);
+  if (!request.inertia) return;
+  for (std::int32_t slot = 0; slot < map_.slots(); ++slot)
+    residual_[slot] = dynamics_->weight() * forces_[slot] + dynamics_->old_weight() * dynamics_->old_forces()[slot] + inertia_[slot];
+}
+
+const std::vector<double>& ImplicitSystem::find_inertia() {
+  inertia_.assign(residual_.size(), 0.0);
+  dynamics_->add_inertia(nullptr, inertia_);
+  exchange_.sum(inertia_);
+  gather_at_bodies(inertia_, false);
+  turn_into_slot_directions(inertia_);
+  return inertia_;
 }
 
 bool ImplicitSystem::everywhere_sound(bool sound) {
@@ -76,6 +113,7 @@ void ImplicitSystem::add_elements(double increment, bool& sound) {
   NodalMotion motion = analysis_.current.motion();
   motion.velocity = nullptr;
   motion.increment = increment;
+  if (dynamics_) dynamics_->lend(motion);
   for (std::size_t group = 0; group < analysis_.element_groups.size(); ++group)
     for (std::int32_t element = 0; element < analysis_.element_groups[group]->size() && sound; ++element)
       if (analysis_.takes_part(*analysis_.element_groups[group], element)) add_element(group, element, motion, sound);
@@ -234,7 +272,7 @@ void ImplicitSystem::add_stabilization(const AssemblyRequest& request) {
 }
 
 /// Forces on carried nodes act on their body, with their moments; turning the body turns the arms.
-void ImplicitSystem::gather_at_bodies() {
+void ImplicitSystem::gather_at_bodies(std::vector<double>& forces, bool with_stiffness) {
   const auto& bodies = analysis_.current.rigid_bodies;
   std::vector<double> sums(6 * bodies.size(), 0.0);
   std::vector<std::array<double, 9>> turning(bodies.size());
@@ -243,7 +281,7 @@ void ImplicitSystem::gather_at_bodies() {
     if (body < 0 || !analysis_.domain.owned[node]) continue;
     Point arm{};
     for (int i = 0; i < 3; ++i) arm[i] = analysis_.current.position[4 * node + i] - bodies[body].position[i];
-    const double* force = &residual_[map_.slot(node, 0)];
+    const double* force = &forces[map_.slot(node, 0)];
     const auto moment = cross_product(arm.data(), force);
     const double along = arm[0] * force[0] + arm[1] * force[1] + arm[2] * force[2];
     for (int i = 0; i < 3; ++i) {
@@ -255,23 +293,23 @@ void ImplicitSystem::gather_at_bodies() {
   }
   for (std::int32_t node = 0; node < analysis_.domain.turning; ++node)
     if (const auto body = analysis_.turning_body(node); body >= 0 && analysis_.domain.owned[node])
-      for (int i = 0; i < 3; ++i) sums[6 * body + 3 + i] += residual_[map_.slot(node, 3 + i)];
+      for (int i = 0; i < 3; ++i) sums[6 * body + 3 + i] += forces[map_.slot(node, 3 + i)];
   analysis_.communicator.sum(std::span<double>(sums));
   for (std::size_t body = 0; body < bodies.size(); ++body) {
     const auto reference = analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
     for (int i = 0; i < 3; ++i) {
-      residual_[map_.slot(reference, i)] += sums[6 * body + i];
-      residual_[map_.rotation_slot(static_cast<std::int32_t>(body), i)] += sums[6 * body + 3 + i];
+      forces[map_.slot(reference, i)] += sums[6 * body + i];
+      forces[map_.rotation_slot(static_cast<std::int32_t>(body), i)] += sums[6 * body + 3 + i];
     }
-    stiffness_.add(std::array{map_.spin(static_cast<std::int32_t>(body))}, turning[body]);
+    if (with_stiffness) stiffness_.add(std::array{map_.spin(static_cast<std::int32_t>(body))}, turning[body]);
   }
 }
 
-void ImplicitSystem::turn_into_slot_directions() {
+void ImplicitSystem::turn_into_slot_directions(std::vector<double>& forces) const {
   const auto turn = [&](std::int32_t first_slot, const Matrix3<double>& axes) {
     const auto turned =
-        axes * Vector3<double>{{residual_[first_slot], residual_[first_slot + 1], residual_[first_slot + 2]}};
-    for (int i = 0; i < 3; ++i) residual_[first_slot + i] = turned[i];
+        axes * Vector3<double>{{forces[first_slot], forces[first_slot + 1], forces[first_slot + 2]}};
+    for (int i = 0; i < 3; ++i) forces[first_slot + i] = turned[i];
   };
   for (std::int32_t node = 0; node < analysis_.domain.size(); ++node) {
     if (!map_.has_own_directions(node)) continue;
@@ -281,7 +319,7 @@ void ImplicitSystem::turn_into_slot_directions() {
       turn(map_.rotation_slot(body, 0), map_.directions(node));
   }
   for (std::int32_t slot = 0; slot < map_.slots(); ++slot)
-    if (map_.role(slot) == ImplicitDofMap::Role::absent) residual_[slot] = 0.0;
+    if (map_.role(slot) == ImplicitDofMap::Role::absent) forces[slot] = 0.0;
 }
 
 }  // namespace balocco

@@ -11,22 +11,24 @@ constexpr std::array<Point, 3> unit_directions{{{1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}
 
 }  // namespace
 
-/// A node's pair with the first one, and the multipliers in threes. What couples the first node with itself and with the multipliers
-/// is in the first of them.
+/// A node's pair with the first one (or all nodes, where any two are coupled), and the multipliers in threes. What couples the first
+/// node with itself and with the multipliers is in the first of them.
 template <class Add>
 void ImplicitSystem::for_each_constraint_block(std::size_t local_constraint, Add add) {
   const auto& constraint = *analysis_.constraints[analysis_.local_constraints[local_constraint]];
   const auto first_slot = map_.multiplier_slot(local_constraint);
   const auto local = [&](std::size_t i) { return analysis_.domain.local_node[constraint.nodes()[i]]; };
   const std::size_t nodes = constraint.nodes().size();
+  std::vector<std::size_t> members;
   for (std::size_t i = nodes == 1 ? 0 : 1; i < nodes; ++i) {
+    members = {0};
+    for (std::size_t k = constraint.couples_all() ? 1 : i; k > 0 && k <= (constraint.couples_all() ? nodes - 1 : i); ++k) members.push_back(k);
     motions_.clear();
     const auto add_node = [&](std::size_t which) {
       motions_.push_back(map_.motion(local(which)));
       if (local(which) < analysis_.domain.turning) motions_.push_back(map_.nodal_spin(local(which)));
     };
-    add_node(0);
-    if (i > 0) add_node(i);
+    for (const auto which : members) add_node(which);
     for (int row = 0; row < constraint.rows(); row += 3) {
       NodeMotion multipliers;
       multipliers.count = std::min(3, constraint.rows() - row);
@@ -34,18 +36,31 @@ void ImplicitSystem::for_each_constraint_block(std::size_t local_constraint, Add
       std::ranges::copy(unit_directions, multipliers.direction.begin());
       motions_.push_back(multipliers);
     }
-    add(i);
+    add(std::span<const std::size_t>(members));
+    if (constraint.couples_all()) return;
   }
 }
 
 void ImplicitSystem::record_constraints() {
   for (std::size_t i = 0; i < analysis_.local_constraints.size(); ++i)
-    if (map_.owned(map_.multiplier_slot(i))) for_each_constraint_block(i, [&](std::size_t) { stiffness_.add(motions_, {}); });
+    if (map_.owned(map_.multiplier_slot(i))) for_each_constraint_block(i, [&](auto) { stiffness_.add(motions_, {}); });
 }
 
 void ImplicitSystem::add_constraints() {
   for (std::size_t i = 0; i < analysis_.local_constraints.size(); ++i)
     if (map_.owned(map_.multiplier_slot(i))) add_constraint(i);
+}
+
+/// A rope that hangs loose: its multiplier vanishes, as a pivot of the sign that constraints have.
+void ImplicitSystem::add_slack(std::size_t local_constraint) {
+  const auto index = analysis_.local_constraints[local_constraint];
+  analysis_.current.multiplier[analysis_.first_constraint_row[index]] = 0.0;
+  for_each_constraint_block(local_constraint, [&](auto) {
+    const std::size_t size = 3 * motions_.size();
+    block_.assign(size * size, 0.0);
+    block_[(size - 3) * size + size - 3] = -1.0;
+    stiffness_.add(motions_, block_);
+  });
 }
 
 void ImplicitSystem::add_constraint(std::size_t local_constraint) {
@@ -55,10 +70,13 @@ void ImplicitSystem::add_constraint(std::size_t local_constraint) {
   const std::size_t nodes = constraint.nodes().size();
   const std::span multipliers(&analysis_.current.multiplier[analysis_.first_constraint_row[index]], rows);
   analysis_.find_places(index, places_);
+  const bool coupled = constraint.couples_all();
+  const std::size_t side = coupled ? width : 12;
   gaps_.assign(rows, 0.0);
   gradient_.assign(rows * width, 0.0);
-  curvature_.assign(144 * std::max<std::size_t>(nodes - 1, 1), 0.0);
+  curvature_.assign(coupled ? side * side : 144 * std::max<std::size_t>(nodes - 1, 1), 0.0);
   constraint.gaps(places_, gaps_);
+  if (constraint.is_one_sided() && (multipliers[0] < 0.0 || (multipliers[0] == 0.0 && gaps_[0] <= 0.0))) return add_slack(local_constraint);
   constraint.gradient(places_, gradient_);
   constraint.add_curvature(places_, multipliers, curvature_);
 
@@ -70,26 +88,26 @@ void ImplicitSystem::add_constraint(std::size_t local_constraint) {
         residual_[map_.slot(node, k)] += multipliers[row] * gradient_[row * width + 6 * i + k];
     }
   }
-  for_each_constraint_block(local_constraint, [&](std::size_t i) {
+  for_each_constraint_block(local_constraint, [&](std::span<const std::size_t> members) {
     const auto turns = [&](std::size_t which) {
       return analysis_.domain.local_node[constraint.nodes()[which]] < analysis_.domain.turning;
     };
     // Columns of the gradient, and of the node's pair in the curvature, that the motions stand for.
     std::vector<std::size_t> columns, pair;
-    for (const std::size_t which : {std::size_t{0}, i}) {
-      if (which == 0 && !columns.empty()) continue;
+    const std::size_t last = members.back();
+    for (const std::size_t which : members) {
       for (std::size_t k = 0; k < (turns(which) ? 6U : 3U); ++k) {
         columns.push_back(6 * which + k);
-        pair.push_back((which == 0 ? 0 : 6) + k);
+        pair.push_back((coupled ? 6 * which : which == 0 ? 0 : 6) + k);
       }
     }
     const std::size_t moving = columns.size(), size = 3 * motions_.size();
     block_.assign(size * size, 0.0);
-    const double* curvature = &curvature_[i == 0 ? 0 : 144 * (i - 1)];
+    const double* curvature = &curvature_[coupled || last == 0 ? 0 : 144 * (last - 1)];
     for (std::size_t a = 0; a < moving; ++a) {
-      for (std::size_t b = 0; b < moving; ++b) block_[a * size + b] = curvature[12 * pair[a] + pair[b]];
+      for (std::size_t b = 0; b < moving; ++b) block_[a * size + b] = curvature[side * pair[a] + pair[b]];
       const bool of_first = columns[a] < 6;
-      if (of_first && i > 1) continue;
+      if (of_first && last > 1 && !coupled) continue;
       for (std::size_t row = 0; row < rows; ++row)
         block_[a * size + moving + row] = block_[(moving + row) * size + a] = gradient_[row * width + columns[a]];
     }

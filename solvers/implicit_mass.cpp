@@ -14,85 +14,108 @@ namespace {
 
 using Block = std::array<double, 9>;
 
-/// Calls `visit(motions, block)` for what consistent masses of this rank's elements differ from the lumped ones by.
-template <class Visit>
-void for_each_consistent_part(const Analysis& analysis, const ImplicitDofMap& map, Visit visit) {
-  std::vector<NodeMotion> motions;
+double damping_of(const Analysis& analysis, const ElementGroup& group) {
+  const auto material = analysis.model.sections[group.section()].material;
+  return material >= 0 ? analysis.model.materials[material].damping_alpha : 0.0;
+}
+
+/// What consistent masses of this rank's elements differ from the lumped ones by.
+void for_each_consistent_part(const Analysis& analysis, InertiaKind kind, const VisitInertia& visit) {
+  std::vector<Inertial> freedoms;
   std::vector<double> lumped, block;
   for (const auto& group : analysis.element_groups) {
     ConsistentMass mass(analysis.model, *group);
-    if (!mass.exists()) continue;
+    const double factor = kind == InertiaKind::mass ? 1.0 : damping_of(analysis, *group);
+    if (!mass.exists() || factor == 0.0) continue;
     const auto count = static_cast<std::size_t>(group->nodes_per_element()), size = 3 * count;
     lumped.resize(count);
     for (std::int32_t element = 0; element < group->size(); ++element) {
-      motions.clear();
-      for (const auto node : group->nodes(element)) motions.push_back(map.motion(node));
+      freedoms.clear();
+      for (const auto node : group->nodes(element)) freedoms.push_back({node});
       group->lumped_mass(element, lumped);
       const auto products = mass.products(element);
       block.assign(size * size, 0.0);
       for (std::size_t i = 0; i < count; ++i)
         for (std::size_t j = 0; j < count; ++j)
           for (std::size_t axis = 0; axis < 3; ++axis)
-            block[size * (3 * i + axis) + 3 * j + axis] = group->density() * products[count * i + j] - (i == j ? lumped[i] : 0.0);
-      visit(motions, block);
+            block[size * (3 * i + axis) + 3 * j + axis] =
+                factor * (group->density() * products[count * i + j] - (i == j ? lumped[i] : 0.0));
+      visit(freedoms, block);
     }
   }
 }
 
-/// Calls `visit(motion, block)` for every inertia of this rank's nodes and elements: 3 x 3, of a displacement or a spin. Rotations
-/// have the inertia of the material, not that which the explicit loop gives them for its increment's sake.
-template <class Visit>
-void for_each_inertia(const Analysis& analysis, const ImplicitDofMap& map, Visit visit) {
-  const auto& domain = analysis.domain;
-  for (std::int32_t node = 0; node < domain.size(); ++node) {
-    const double mass = analysis.nodal_mass[node];
-    if (domain.owned[node] && mass > 0.0) visit(map.motion(node), Block{mass, 0.0, 0.0, 0.0, mass, 0.0, 0.0, 0.0, mass});
-  }
-  const auto visit_spin = [&](std::int32_t node, const Matrix3<double>& at_rest) {
+/// Tensors that turn with what they belong to, from the reference configuration.
+void for_each_spin_inertia(const Analysis& analysis, InertiaKind kind, const VisitInertia& visit) {
+  const auto visit_turned = [&](std::int32_t node, const Matrix3<double>& rotation, const Matrix3<double>& at_rest) {
+    const Inertial freedom{node, true};
+    visit(std::span(&freedom, 1), (rotation * at_rest * transpose(rotation)).component);
+  };
+  const auto visit_node = [&](std::int32_t node, const Matrix3<double>& at_rest) {
     const double* q = &analysis.current.orientation[4 * node];
-    const auto rotation = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
-    visit(map.nodal_spin(node), (rotation * at_rest * transpose(rotation)).component);
+    visit_turned(node, rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]}), at_rest);
   };
   std::vector<double> tensors;
   for (const auto& group : analysis.element_groups) {
-    if (group->freedoms_per_node() == 3) continue;
+    const double factor = kind == InertiaKind::mass ? 1.0 : damping_of(analysis, *group);
+    if (group->freedoms_per_node() == 3 || factor == 0.0) continue;
     tensors.resize(9 * group->nodes_per_element());
     for (std::int32_t element = 0; element < group->size(); ++element) {
       group->material_rotary_inertia(element, tensors);
       for (int i = 0; i < group->nodes_per_element(); ++i) {
         Matrix3<double> at_rest;
         std::copy_n(&tensors[9 * i], 9, at_rest.component.begin());
-        visit_spin(group->nodes(element)[i], at_rest);
+        visit_node(group->nodes(element)[i], factor * at_rest);
       }
     }
   }
+  if (kind == InertiaKind::damping) return;
+  const auto& domain = analysis.domain;
   for (const auto& [node, section, own] : analysis.rotary_tensors)
-    if (domain.owned[node]) visit_spin(node, own);
+    if (domain.owned[node]) visit_node(node, own);
   const auto& model = analysis.model;
   for (const auto& elements : model.elements) {
     if (elements.type->section != Section::Kind::rotary_inertia) continue;
     for (std::int32_t row = 0; row < elements.size(); ++row) {
       const auto node = domain.local_node[elements.connectivity[row]];
       if (node < 0 || !domain.owned[node] || analysis.reference_of(node) < 0) continue;
-      const auto body = analysis.reference_of(node);
       const auto& given = model.sections[elements.section[row]].inertia;
       const Matrix3<double> own{{given[0], given[3], given[4], given[3], given[1], given[5], given[4], given[5], given[2]}};
-      const auto rotation = rotation_matrix(analysis.current.rigid_bodies[body]);
-      visit(map.spin(body), (rotation * own * transpose(rotation)).component);
+      visit_turned(node, rotation_matrix(analysis.current.rigid_bodies[analysis.reference_of(node)]), own);
     }
   }
 }
 
 }  // namespace
 
+void for_each_inertia(const Analysis& analysis, InertiaKind kind, const VisitInertia& visit) {
+  const auto& lumped = kind == InertiaKind::mass ? analysis.nodal_mass : analysis.nodal_damping;
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
+    if (!analysis.domain.owned[node] || lumped[node] == 0.0) continue;
+    const Inertial freedom{node};
+    visit(std::span(&freedom, 1), Block{lumped[node], 0.0, 0.0, 0.0, lumped[node], 0.0, 0.0, 0.0, lumped[node]});
+  }
+  for_each_spin_inertia(analysis, kind, visit);
+  for_each_consistent_part(analysis, kind, visit);
+}
+
+NodeMotion motion_of(const Analysis& analysis, const ImplicitDofMap& map, Inertial freedom) {
+  if (!freedom.spins) return map.motion(freedom.node);
+  const auto body = analysis.reference_of(freedom.node);
+  return body >= 0 ? map.spin(body) : map.nodal_spin(freedom.node);
+}
+
 void assemble_mass(const Analysis& analysis, const ImplicitDofMap& map, ImplicitStiffness& mass) {
-  for_each_inertia(analysis, map, [&](const NodeMotion& motion, const Block&) { mass.add(std::span(&motion, 1), {}); });
-  for_each_consistent_part(analysis, map, [&](const auto& motions, const auto&) { mass.add(motions, {}); });
+  std::vector<NodeMotion> motions;
+  const auto motions_of = [&](std::span<const Inertial> freedoms) {
+    motions.clear();
+    for (const auto freedom : freedoms) motions.push_back(motion_of(analysis, map, freedom));
+    return std::span<const NodeMotion>(motions);
+  };
+  for_each_inertia(analysis, InertiaKind::mass, [&](auto freedoms, auto) { mass.add(motions_of(freedoms), {}); });
   mass.finish_pattern();
   mass.start({});
-  for_each_inertia(analysis, map,
-                   [&](const NodeMotion& motion, const Block& block) { mass.add(std::span(&motion, 1), block); });
-  for_each_consistent_part(analysis, map, [&](const auto& motions, const auto& block) { mass.add(motions, block); });
+  for_each_inertia(analysis, InertiaKind::mass, [&](auto freedoms, auto block) { mass.add(motions_of(freedoms), block); });
   mass.finish();
 }
 

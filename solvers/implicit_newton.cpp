@@ -34,7 +34,7 @@ ImplicitNewton::ImplicitNewton(Analysis& analysis, const Step& step, ImplicitSys
                                ImplicitLinearSolver& solver, const ImplicitDrive& drive, Observer& observer)
     : analysis_(analysis),
       step_(step),
-      controls_(std::get<StaticProcedure>(step.procedure).controls),
+      controls_(step.implicit_increments()->controls),
       system_(system),
       solver_(solver),
       drive_(drive),

@@ -1,4 +1,4 @@
-// Newton's method for one increment of a static step.
+// Newton's method for one increment of an implicit step.
 #pragma once
 
 #include <span>
@@ -40,7 +40,7 @@ struct NewtonResult {
 
 class ImplicitNewton {
  public:
-  /// `step` is static.
+  /// `step` has implicit increments.
   ImplicitNewton(Analysis& analysis, const Step& step, ImplicitSystem& system, ImplicitLinearSolver& solver,
                  const ImplicitDrive& drive, Observer& observer);
 

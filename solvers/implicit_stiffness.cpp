@@ -28,9 +28,9 @@ void ImplicitStiffness::add(std::span<const NodeMotion> motions, std::span<const
     const double* row = reduced + i * size;
     if (map_.equation(slots_[i]) >= 0)
       for (std::size_t j = 0; j < size; ++j)
-        if (map_.equation(slots_[j]) >= 0) values_[next_++] = row[j];
+        if (map_.equation(slots_[j]) >= 0) values_[next_++] = weight_ * row[j];
     if (has_motion_)
-      for (std::size_t j = 0; j < size; ++j) product_[slots_[i]] += row[j] * motion_[slots_[j]];
+      for (std::size_t j = 0; j < size; ++j) product_[slots_[i]] += weight_ * row[j] * motion_[slots_[j]];
   }
 }
 
@@ -83,6 +83,7 @@ void ImplicitStiffness::finish_pattern() {
 }
 
 void ImplicitStiffness::start(std::span<const double> motion) {
+  weight_ = 1.0;
   motion_.assign(motion.begin(), motion.end());
   has_motion_ = std::ranges::any_of(motion_, [](double q) { return q != 0.0; });
   std::ranges::fill(product_, 0.0);

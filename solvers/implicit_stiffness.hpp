@@ -21,6 +21,8 @@ class ImplicitStiffness {
 
   /// Begins a new assembly; `motion` (one value a slot) is what product() multiplies.
   void start(std::span<const double> motion);
+  /// Factor on the blocks that follow, 1 after start().
+  void set_weight(double weight) { weight_ = weight; }
   /// Hands the values to the matrix. Collective.
   void finish();
 
@@ -41,6 +43,7 @@ class ImplicitStiffness {
   std::size_t next_ = 0;
   std::vector<double> motion_, product_;
   bool has_motion_ = false;
+  double weight_ = 1.0;
   std::vector<std::int32_t> slots_;  // of the block at hand
   std::vector<double> reduced_;
 };

@@ -20,6 +20,8 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
       external_(map_.slots()) {
   for (auto slot = map_.first_multiplier(); slot < map_.slots(); ++slot)
     if (map_.role(slot) == ImplicitDofMap::Role::absent) analysis_.current.multiplier[map_.constraint_row(slot)] = 0.0;
+  if (const auto* dynamic = std::get_if<DynamicProcedure>(&step.procedure))
+    dynamics_ = std::make_unique<AlphaMethod>(analysis, map_, dynamic->alpha);
   find_levers();
   find_stabilizing_masses();
   begin_increment();
@@ -118,8 +120,16 @@ void ImplicitSystem::record_pattern() {
     alone.slots[0] = slot;
     stiffness_.add(std::span(&alone, 1), {});
   }
-  for (std::size_t body = 0; body < analysis_.model.rigid_bodies.size(); ++body)
-    stiffness_.add(std::array{map_.spin(static_cast<std::int32_t>(body))}, {});
+  const auto record_bodies = [&] {
+    for (std::size_t body = 0; body < analysis_.model.rigid_bodies.size(); ++body)
+      stiffness_.add(std::array{map_.spin(static_cast<std::int32_t>(body))}, {});
+  };
+  if (dynamics_) dynamics_->record_damping(stiffness_);
+  record_bodies();
+  if (dynamics_) {
+    dynamics_->record_inertia(stiffness_);
+    record_bodies();
+  }
   stiffness_.finish_pattern();
 }
 

@@ -1,10 +1,12 @@
-// The discrete equations of a static step: residual forces and their exact stiffness at the positions of the state,
-// reduced to the free slots (rigid bodies eliminated with finite rotations).
+// The discrete equations of an implicit step: residual forces and their exact stiffness at the positions of the state,
+// reduced to the free slots (rigid bodies eliminated with finite rotations); of a dynamic one with inertia.
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "alpha_method.hpp"
 #include "implicit_dof_map.hpp"
 #include "implicit_slot_exchange.hpp"
 #include "implicit_stiffness.hpp"
@@ -14,6 +16,7 @@ namespace balocco {
 struct AssemblyRequest {
   double step_time = 0.0, total_time = 0.0;
   double increment = 0.0;       // time that the increment takes; 0: none yet, no rate effects
+  bool inertia = true;         // dynamic: the weighted forces of the alpha method with inertia; false: the forces alone
   bool initial_loads = false;  // loads as they stood before the step began
   bool load_stiffness = true;  // follower pressure; a linear step leaves it out
   bool contact_sticks = false;  // closed points with friction stick in the stiffness, sliding or not
@@ -21,13 +24,6 @@ struct AssemblyRequest {
       motion;                   // of each slot: stiffness().product() will hold this rank's part of stiffness * motion
   double viscosity = 0.0;       // viscous force / (mass * displacement since the increment began)
   double regularization = 0.0;  // stiffness added to every free slot (times its lever squared), without a force
-};
-
-/// Where the increment began: what a failed trial returns to.
-struct Configuration {
-  std::vector<double> position, orientation, rotation;
-  std::vector<RigidBodyState> bodies;
-  std::vector<double> multiplier;
 };
 
 class ImplicitSystem {
@@ -43,6 +39,8 @@ class ImplicitSystem {
   /// Internal - external - contact forces in the slots' directions, carried nodes gathered at their reference node;
   /// zero in absent slots. Stabilising forces are included.
   const std::vector<double>& residual() const { return residual_; }
+  /// The same forces as they are at the end of the increment, without weights and inertia.
+  const std::vector<double>& forces() const { return dynamics_ ? forces_ : residual_; }
   /// Loads on each node, also on carried ones, and moments on bodies, in global directions.
   const std::vector<double>& external() const { return external_; }
   /// Average magnitude of the nodal forces of the elements, over all ranks.
@@ -51,9 +49,14 @@ class ImplicitSystem {
   std::int64_t closed_points() const { return closed_points_; }
   std::int64_t changed_points() const { return changed_points_; }
 
+  /// Dynamic: what inertia adds to the residual, for the motion that dynamics() found last. Collective.
+  const std::vector<double>& find_inertia();
+
   const ImplicitDofMap& map() const { return map_; }
   ImplicitStiffness& stiffness() { return stiffness_; }
   SlotExchange& exchange() { return exchange_; }
+  /// Null where the step is at rest.
+  AlphaMethod* dynamics() { return dynamics_.get(); }
 
   /// Moves nodes and bodies by `factor` times an increment of the slots.
   void move(std::span<const double> increment, double factor);
@@ -113,12 +116,14 @@ class ImplicitSystem {
   void record_constraints();
   void add_constraints();
   void add_constraint(std::size_t local_constraint);
-  /// Calls add(motions, block) for the parts of which a constraint's tangent consists, always in the same order.
+  void add_slack(std::size_t local_constraint);
+  /// Calls add(nodes of the constraint) for the blocks of which its tangent consists, motions_ being theirs, always in the same order.
   template <class Add>
   void for_each_constraint_block(std::size_t local_constraint, Add add);
   void add_stabilization(const AssemblyRequest& request);
-  void gather_at_bodies();
-  void turn_into_slot_directions();
+  void add_dynamics(const AssemblyRequest& request);
+  void gather_at_bodies(std::vector<double>& forces, bool with_stiffness = true);
+  void turn_into_slot_directions(std::vector<double>& forces) const;
   bool everywhere_sound(bool sound);
   void find_levers();
   void find_stabilizing_masses();
@@ -135,7 +140,9 @@ class ImplicitSystem {
   Configuration start_;
   std::vector<std::vector<double>> trial_history_;
   std::vector<std::vector<ContactPoint>> start_contact_, trial_contact_;
+  std::unique_ptr<AlphaMethod> dynamics_;
   std::vector<double> residual_, external_, mass_, lever_;
+  std::vector<double> forces_, inertia_;  // dynamic
   double model_size_ = 1.0;
   double average_force_ = 0.0;
   std::array<double, 2> force_sum_{};  // of magnitudes, and how many

@@ -18,6 +18,15 @@ using RunStep = Outcome (*)(Analysis& analysis, const Step& step, Observer& obse
 /// Newton's method with automatic increments. @throws AnalysisError when an increment does not converge at the smallest size.
 Outcome run_static_step(Analysis& analysis, const Step& step, Observer& observer);
 
+/// The alpha method of implicit dynamics. @throws AnalysisError as run_static_step.
+Outcome run_dynamic_step(Analysis& analysis, const Step& step, Observer& observer);
+
+/// The sum of the modes that a frequency step found. @throws AnalysisError where there are none.
+Outcome run_modal_dynamic_step(Analysis& analysis, const Step& step, Observer& observer);
+
+/// Load factors of linear buckling. @throws AnalysisError where there are none.
+Outcome run_buckle_step(Analysis& analysis, const Step& step, Observer& observer);
+
 /// Half-step central difference. @throws AnalysisError when an element inverts or the run blows up.
 Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observer);
 

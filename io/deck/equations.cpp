@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "deck/builder.hpp"
+#include "deck/geometry.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/turning_nodes.hpp"
@@ -113,14 +114,66 @@ void add_equal(Builder& builder, std::int32_t first, std::int32_t second, int fr
     add(builder, LinearEquation{{{first, dof, 1.0}, {second, dof, -1.0}}}, "*MPC", location);
 }
 
+/// The nodes of a line from field 1 on: numbers or sets, in the order of the deck.
+bool nodes_of_line(Builder& builder, const Block& block, Row& row, std::vector<std::int32_t>& nodes) {
+  for (int field = 1; field < row.size(); ++field) {
+    if (!row.has(field)) continue;
+    std::vector<std::int32_t> rows;
+    if (!builder.nodes_of(row.text(field), block, row.location(), rows)) return false;
+    nodes.insert(nodes.end(), rows.begin(), rows.end());
+  }
+  return true;
+}
+
+/// PLANE and STRAIGHT: three or two nodes, and others that stay in their plane or on their line.
+void read_alignment(Builder& builder, const Block& block, Row& row, std::vector<std::int32_t> nodes, bool plane) {
+  const std::size_t base = plane ? 3 : 2;
+  if (nodes.size() <= base) {
+    return row.error(fmt::format("{} of {} nodes says nothing: the first {} make the {}; name more nodes", plane ? "PLANE" : "STRAIGHT",
+                                 nodes.size(), base, plane ? "plane" : "line"));
+  }
+  const auto at = [&](std::size_t i) { return builder.model.nodes.coordinates[nodes[i]]; };
+  const auto along = subtract(at(1), at(0));
+  if (!(norm(along) > 0.0)) return row.error("the first two nodes are in one place; name others first");
+  if (plane) {  // a set, whose nodes are sorted, may begin with three on a line
+    std::size_t third = 2;
+    const auto spans = [&](std::size_t i) { return norm(cross(along, subtract(at(i), at(0)))) > 1e-6 * norm(along) * norm(subtract(at(i), at(0))); };
+    while (third < nodes.size() && !spans(third)) ++third;
+    if (third == nodes.size()) return row.error("all nodes lie on one line, which makes no plane; name others");
+    std::rotate(nodes.begin() + 2, nodes.begin() + static_cast<std::ptrdiff_t>(third), nodes.begin() + static_cast<std::ptrdiff_t>(third) + 1);
+  }
+  for (std::size_t i = base; i < nodes.size(); ++i) {
+    Alignment alignment{{nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(base)}};
+    alignment.nodes.push_back(nodes[i]);
+    add(builder, std::move(alignment), "*MPC", row.location());
+  }
+}
+
+/// DIST: a, a, a, b, b, b, c: nodes a and b get no farther apart than the first coordinate of c says, which *BOUNDARY holds.
+void read_rope(Builder& builder, Row& row, const std::vector<std::int32_t>& nodes) {
+  const bool fits = nodes.size() == 7 && nodes[0] == nodes[1] && nodes[0] == nodes[2] && nodes[3] == nodes[4] && nodes[3] == nodes[5] &&
+                    nodes[0] != nodes[3];
+  if (!fits) return row.error("DIST is followed by a, a, a, b, b, b, c: nodes a and b, and c whose first coordinate is their greatest distance");
+  const double distance = builder.model.nodes.coordinates[nodes[6]][0];
+  if (!(distance > 0.0))
+    return row.error(fmt::format("the first coordinate of node {}, the greatest distance, is {}; give a positive one", builder.model.node_name(nodes[6]), distance));
+  add(builder, GreatestDistance{{nodes[0], nodes[3]}, distance}, "*MPC", row.location());
+}
+
 void read_mpc(Builder& builder, const Block& block) {
   const auto turns = turning_nodes(builder.model);
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     const auto type = squeeze(row.text(0));
     std::vector<std::int32_t> firsts, seconds;
+    if (type == "PLANE" || type == "STRAIGHT" || type == "DIST") {
+      std::vector<std::int32_t> nodes;
+      if (!nodes_of_line(builder, block, row, nodes)) continue;
+      type == "DIST" ? read_rope(builder, row, nodes) : read_alignment(builder, block, row, std::move(nodes), type == "PLANE");
+      continue;
+    }
     if (type != "BEAM" && type != "PIN" && type != "TIE" && type != "LINK") {
-      row.error(fmt::format("type {} is not known; there are BEAM, PIN, TIE and LINK; joints are connectors (*CONNECTOR SECTION)", row.text(0)));
+      row.error(fmt::format("type {} is not known; there are BEAM, PIN, TIE, LINK, PLANE, STRAIGHT and DIST; joints are connectors (*CONNECTOR SECTION)", row.text(0)));
       continue;
     }
     if (!row.has(1) || !row.has(2)) {

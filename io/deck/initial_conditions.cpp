@@ -14,21 +14,33 @@ namespace balocco::deck {
 
 namespace {
 
-void read_velocities(Builder& builder, const Block& block) {
+/// Lines "nodes, degree of freedom, value" of a displacement or a velocity.
+template <class Add>
+void read_translations(Builder& builder, const Block& block, const char* what, Add add) {
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
-    InitialVelocity velocity;
-    velocity.location = line.location;
     const std::int64_t dof = row.integer(1, "degree of freedom");
-    const double value = row.real(2, "velocity");
+    const double value = row.real(2, what);
     row.at_most(3);
-    if (row.ok() && (dof < 1 || dof > 3))
-      row.error(fmt::format("degree of freedom {} has no initial velocity; give 1 to 3", dof));
-    if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, velocity.nodes)) continue;
-    velocity.dof = static_cast<std::int32_t>(dof - 1);
-    velocity.velocity[velocity.dof] = value;
-    builder.model.initial_velocities.push_back(std::move(velocity));
+    if (row.ok() && (dof < 1 || dof > 3)) row.error(fmt::format("degree of freedom {} has no initial {}; give 1 to 3", dof, what));
+    std::vector<std::int32_t> nodes;
+    if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, nodes)) continue;
+    add(std::move(nodes), static_cast<std::int32_t>(dof - 1), value, line.location);
   }
+}
+
+void read_velocities(Builder& builder, const Block& block) {
+  read_translations(builder, block, "velocity", [&](std::vector<std::int32_t> nodes, std::int32_t dof, double value, Location location) {
+    InitialVelocity velocity{.nodes = std::move(nodes), .dof = dof, .location = location};
+    velocity.velocity[dof] = value;
+    builder.model.initial_velocities.push_back(std::move(velocity));
+  });
+}
+
+void read_displacements(Builder& builder, const Block& block) {
+  read_translations(builder, block, "displacement", [&](std::vector<std::int32_t> nodes, std::int32_t dof, double value, Location location) {
+    builder.model.initial_displacements.push_back({std::move(nodes), dof, value, location});
+  });
 }
 
 /// Pairs of lines: nodes, angular speed, velocity of the axis; two points of the axis.
@@ -156,6 +168,7 @@ void read_hardening(Builder& builder, const Block& block) {
 
 void read_initial_conditions(Builder& builder, const Block& block) {
   const std::string type = block.value("TYPE");
+  if (type == "DISPLACEMENT") return read_displacements(builder, block);
   if (type == "VELOCITY") return read_velocities(builder, block);
   if (type == "ROTATING VELOCITY") return read_rotating_velocities(builder, block);
   type == "STRESS" ? read_stresses(builder, block) : read_hardening(builder, block);
@@ -164,7 +177,7 @@ void read_initial_conditions(Builder& builder, const Block& block) {
 const RegisterKeyword initial{{"INITIAL CONDITIONS",
                                Phase::constraints,
                                Place::model,
-                               {required(choice("TYPE", {"VELOCITY", "ROTATING VELOCITY", "STRESS", "HARDENING"}))},
+                               {required(choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ROTATING VELOCITY", "STRESS", "HARDENING"}))},
                                read_initial_conditions}};
 
 }  // namespace

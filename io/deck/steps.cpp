@@ -113,13 +113,25 @@ void begin_step(Builder& builder, const Block& block) {
   index_nodes(builder);
 }
 
+/// Loads that act on a perturbation are those that its own step says.
+void drop_loads_of_the_state(Builder& builder, Step& step) {
+  if (std::holds_alternative<FrequencyProcedure>(step.procedure)) return;  // it is about the state under its loads, and has none
+  const auto drop = [&](auto& loads) {
+    std::erase_if(loads, [&](const auto& load) { return !builder.draft.said_here(load); });
+    for (auto& load : loads) load.previous = 0.0;
+  };
+  drop(step.concentrated_loads);
+  drop(step.pressures);
+  drop(step.body_loads);
+}
+
 /// Modes are always written, and nothing else could be.
-void end_perturbation(Builder& builder, Step& step) {
+void end_search_for_modes(Builder& builder, Step& step) {
   if (builder.draft.field_replaced || builder.draft.history_replaced)
     builder.diagnostics.warning(builder.draft.location, "OUTPUT",
                                 fmt::format("step {} writes the displacements and rotations of its modes, and nothing else",
                                             step.name));
-  if (!builder.draft.said.empty())
+  if (!builder.draft.said.empty() && std::holds_alternative<FrequencyProcedure>(step.procedure))
     builder.diagnostics.error(builder.draft.location, "STEP",
                               fmt::format("step {} seeks modes under the loads that stand when it begins; give loads in a "
                                           "*STATIC step before it",
@@ -142,18 +154,20 @@ void begin_static_perturbation(Builder& builder, const Block& block) {
 
 void end_step(Builder& builder, const Block& block) {
   if (!builder.draft.has_procedure && !builder.draft.faulty) {
-    builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC, *DYNAMIC, EXPLICIT or *FREQUENCY");
+    builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC, *DYNAMIC or *FREQUENCY");
   }
   Step& step = current(builder);
   if (builder.draft.has_procedure && builder.draft.amplitude == (step.ramps_loads() ? "STEP" : "RAMP")) {
     builder.diagnostics.error(
         builder.draft.location, "STEP",
         fmt::format("AMPLITUDE={}: {}; leave it out and give the loads an *AMPLITUDE", builder.draft.amplitude,
-                    step.ramps_loads() ? "loads of a static step grow linearly over it" : "loads of an explicit step act at once"));
+                    step.ramps_loads() ? "loads of a static step grow linearly over it" : "loads of a dynamic step act at once"));
   }
   if (builder.draft.perturbation && !step.is_perturbation()) begin_static_perturbation(builder, block);
-  if (step.is_perturbation()) end_perturbation(builder, step);
-  if (auto* procedure = std::get_if<StaticProcedure>(&step.procedure)) procedure->controls = builder.draft.controls;
+  if (step.is_perturbation()) drop_loads_of_the_state(builder, step);
+  if (step.seeks_modes()) end_search_for_modes(builder, step);
+  if (auto* statics = std::get_if<StaticProcedure>(&step.procedure)) statics->controls = builder.draft.controls;
+  if (auto* dynamics = std::get_if<DynamicProcedure>(&step.procedure)) dynamics->controls = builder.draft.controls;
   if (!builder.draft.bulk_viscosity) return;
   if (auto* procedure = std::get_if<ExplicitProcedure>(&step.procedure)) {
     procedure->linear_bulk_viscosity = (*builder.draft.bulk_viscosity)[0];
@@ -175,15 +189,11 @@ bool begin_procedure(Builder& builder, const Block& block) {
 
 namespace {
 
-void read_static(Builder& builder, const Block& block) {
-  if (!begin_procedure(builder, block)) return;
-  Step& step = current(builder);
-  auto& procedure = step.procedure.emplace<StaticProcedure>();
+/// The data line of *STATIC and *DYNAMIC: first increment, period, smallest and largest increment.
+void read_increments(Builder& builder, const Block& block, ImplicitIncrements& procedure) {
   procedure.nonlinear_geometry = builder.draft.nonlinear_geometry;
   procedure.maximum_increments = builder.draft.maximum_increments;
   procedure.direct = block.has("DIRECT");
-  procedure.stabilize = block.has("STABILIZE");
-  procedure.dissipated_energy_fraction = block.real("STABILIZE", procedure.dissipated_energy_fraction);
   double initial = 0.0, duration = 0.0, minimum = 0.0, maximum = 0.0;
   if (!block.lines.empty()) {
     Row row(builder, block, block.lines[0]);
@@ -211,8 +221,42 @@ void read_static(Builder& builder, const Block& block) {
   }
 }
 
+void read_static(Builder& builder, const Block& block) {
+  if (!begin_procedure(builder, block)) return;
+  auto& procedure = current(builder).procedure.emplace<StaticProcedure>();
+  procedure.stabilize = block.has("STABILIZE");
+  procedure.dissipated_energy_fraction = block.real("STABILIZE", procedure.dissipated_energy_fraction);
+  read_increments(builder, block, procedure);
+}
+
+/// Parameters of the one *DYNAMIC do not belong to the other.
+bool has_none(Builder& builder, const Block& block, std::initializer_list<const char*> parameters, const char* cure) {
+  for (const char* parameter : parameters) {
+    if (!block.has(parameter)) continue;
+    builder.error(block, block.location, fmt::format("{} {}", parameter, cure));
+    return false;
+  }
+  return true;
+}
+
+void read_implicit_dynamic(Builder& builder, const Block& block) {
+  auto& procedure = current(builder).procedure.emplace<DynamicProcedure>();
+  if (!has_none(builder, block, {"DIRECT USER CONTROL", "SCALE FACTOR", "ENERGY ERROR"}, "belongs to *DYNAMIC, EXPLICIT; remove it")) return;
+  for (const auto& material : builder.model.materials)
+    if (material.damping_beta > 0.0)
+      return builder.error(block, block.location,
+                           fmt::format("material {} has *DAMPING, BETA, which this procedure does not count; give ALPHA, a dashpot or *VISCOELASTIC",
+                                       material.name));
+  procedure.alpha = block.real("ALPHA", procedure.alpha);
+  if (!(procedure.alpha >= -1.0 / 3.0 && procedure.alpha <= 0.0))
+    builder.error(block, block.location, fmt::format("ALPHA={} must lie between -1/3 and 0; correct it", procedure.alpha));
+  read_increments(builder, block, procedure);
+}
+
 void read_dynamic(Builder& builder, const Block& block) {
   if (!begin_procedure(builder, block)) return;
+  if (!block.has("EXPLICIT")) return read_implicit_dynamic(builder, block);
+  if (!has_none(builder, block, {"ALPHA"}, "belongs to *DYNAMIC without EXPLICIT; remove it")) return;
   Step& step = current(builder);
   auto& procedure = step.procedure.emplace<ExplicitProcedure>();
   builder.draft.nonlinear_geometry = true;
@@ -324,7 +368,7 @@ const RegisterKeyword static_analysis{
 const RegisterKeyword dynamic{{"DYNAMIC",
                                Phase::history,
                                Place::step,
-                               {required(flag("EXPLICIT")), flag("DIRECT USER CONTROL"), flag("DIRECT"),
+                               {flag("EXPLICIT"), real("ALPHA"), flag("DIRECT USER CONTROL"), flag("DIRECT"), choice("APPLICATION", {"TRANSIENT FIDELITY"}),
                                 foreign("ELEMENT BY ELEMENT"), foreign("IMPROVED DT METHOD"), foreign("GLOBAL"),
                                 foreign("SOLVER"), real("SCALE FACTOR"), real("ENERGY ERROR")},
                                read_dynamic}};

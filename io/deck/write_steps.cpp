@@ -54,6 +54,26 @@ void Writer::procedure(const FrequencyProcedure& p) {
   line("{}, {}, {}, {}", field(p.number), field(p.lower), field(p.upper), p.shift);
 }
 
+void Writer::procedure(const DynamicProcedure& p) {
+  line("*DYNAMIC, ALPHA={}{}", p.alpha, p.direct ? ", DIRECT" : "");
+  line("{}, {}, {}, {}", p.initial_increment, p.duration, p.minimum_increment, p.maximum_increment);
+  controls(p.controls);
+}
+
+void Writer::procedure(const BuckleProcedure& p) {
+  line("*BUCKLE\n{}", p.number);
+}
+
+void Writer::procedure(const ModalDynamicProcedure& p) {
+  line("*MODAL DYNAMIC\n{}, {}", p.increment, p.duration);
+  for (const auto& damping : p.damping) {
+    if (damping.fraction != 0.0)
+      line("*MODAL DAMPING\n{}, {}, {}", damping.first, damping.last, damping.fraction);
+    else
+      line("*MODAL DAMPING, RAYLEIGH\n{}, {}, {}, {}", damping.first, damping.last, damping.alpha, damping.beta);
+  }
+}
+
 void Writer::controls(const ImplicitControls& now) {
   const auto old = std::exchange(controls_, now);
   if (now.residual_tolerance != old.residual_tolerance || now.correction_tolerance != old.correction_tolerance) {
@@ -267,17 +287,18 @@ void Writer::checkpoints(std::size_t row) {
 void Writer::step(std::size_t row) {
   const Step& now = model_.steps[row];
   comment(("Step " + now.name).c_str());
-  // A static step has large displacements where it says so, or where they have gone on from a step before.
-  const auto* statics = std::get_if<StaticProcedure>(&now.procedure);
+  // An implicit step has large displacements where it says so, or where they have gone on from a step before.
+  const auto* implicit = now.implicit_increments();
   const std::string details = now.is_perturbation() ? ", PERTURBATION"
-                              : statics == nullptr ? ", NLGEOM=YES"
-                                                   : fmt::format(", NLGEOM={}, INC={}", statics->nonlinear_geometry ? "YES" : "NO",
-                                                                 statics->maximum_increments);
+                              : implicit == nullptr ? ", NLGEOM=YES"
+                                                   : fmt::format(", NLGEOM={}, INC={}", implicit->nonlinear_geometry ? "YES" : "NO",
+                                                                 implicit->maximum_increments);
 
   line("*STEP, NAME={}{}", quoted(now.name), details);
   std::visit([this](const auto& kind) { procedure(kind); }, now.procedure);
-  if (now.is_perturbation()) {  // nothing but supports can be said of it
+  if (now.is_perturbation()) {  // nothing but supports and loads can be said of it
     boundary(row);
+    if (!std::holds_alternative<FrequencyProcedure>(now.procedure)) loads(now);
     return line("*END STEP");
   }
   contact_changes(row);

@@ -50,6 +50,7 @@ class Writer {
   void section_line(const char* keyword, const Section& section, std::size_t row, const std::string& set);
   void rigid_bodies();
   void contact();
+  void initial_displacements();
   void initial_velocities();
   void initial_fields();
 
@@ -57,6 +58,9 @@ class Writer {
   void procedure(const StaticProcedure& p);
   void procedure(const ExplicitProcedure& p);
   void procedure(const FrequencyProcedure& p);
+  void procedure(const DynamicProcedure& p);
+  void procedure(const BuckleProcedure& p);
+  void procedure(const ModalDynamicProcedure& p);
   void controls(const ImplicitControls& now);
   void contact_changes(std::size_t row);
   void element_changes(std::size_t row);

@@ -1,6 +1,8 @@
 #include "constraints/constraint.hpp"
 
+#include "constraints/alignment.hpp"
 #include "constraints/distributing_coupling.hpp"
+#include "constraints/greatest_distance.hpp"
 #include "constraints/joint.hpp"
 #include "constraints/linear_equation.hpp"
 #include "constraints/tie.hpp"
@@ -22,6 +24,10 @@ struct Make {
   }
   std::unique_ptr<Constraint> operator()(const DistributingCoupling& kind) const {
     return std::make_unique<DistributingConstraint>(model, kind);
+  }
+  std::unique_ptr<Constraint> operator()(const Alignment& kind) const { return std::make_unique<AlignmentConstraint>(model, kind); }
+  std::unique_ptr<Constraint> operator()(const GreatestDistance& kind) const {
+    return std::make_unique<GreatestDistanceConstraint>(model, kind);
   }
   std::unique_ptr<Constraint> operator()(const Tie& kind) const { return std::make_unique<TieConstraint>(model, kind, model_size); }
 };

@@ -36,6 +36,11 @@ class Constraint {
   /// Whether gradient() is the same everywhere.
   virtual bool is_linear() const { return false; }
 
+  /// Whether g <= 0 suffices, so that the constraint pulls with a positive multiplier or not at all.
+  virtual bool is_one_sided() const { return false; }
+  /// Whether curvature couples any two nodes: add_curvature() then fills columns() x columns() values.
+  virtual bool couples_all() const { return false; }
+
   /// g, rows() values.
   virtual void gaps(std::span<const NodePlace> places, std::span<double> g) const = 0;
   /// dg, rows() x columns(), row-major.

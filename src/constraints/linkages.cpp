@@ -36,6 +36,8 @@ struct NodesOf {
     for (const auto& term : kind.terms) nodes.push_back(term.node);
     return nodes;
   }
+  std::vector<std::int32_t> operator()(const Alignment& kind) const { return kind.nodes; }
+  std::vector<std::int32_t> operator()(const GreatestDistance& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
   std::vector<std::int32_t> operator()(const Joint& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
   std::vector<std::int32_t> operator()(const Tie& kind) const {
     std::vector<std::int32_t> nodes = kind.others;

@@ -132,7 +132,8 @@ class ElementGroup {
 
   /// Internal force of one element (freedoms_per_node() a node: force, moment) where its nodes are, its exact derivative
   /// (row-major, square) unless `stiffness` is empty, and the history after an increment that started from `old_history`.
-  /// Static: rates, where a force depends on them, are means over motion.increment. A derivative by a rotation is one by the spin d_theta in global axes: R <- exp(d_theta) R.
+  /// Rates, where a force depends on them, are those of motion.velocity where motion.velocity_slope says how they go with positions,
+  /// and means over motion.increment elsewhere. A derivative by a rotation is one by the spin d_theta in global axes: R <- exp(d_theta) R.
   /// @return false if the element is inverted (a Jacobian <= 0), with outputs unspecified.
   virtual bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                          std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const = 0;

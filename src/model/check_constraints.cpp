@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <map>
 
 namespace balocco {
@@ -16,7 +17,12 @@ std::vector<std::pair<Location, std::string>> check_constraints(const Model& mod
     for (const auto* nodes : {&body.tie_nodes, &body.pin_nodes})
       for (const auto node : *nodes) body_of[node] = index;
   }
+  const bool is_explicit =
+      std::ranges::any_of(model.steps, [](const Step& step) { return std::holds_alternative<ExplicitProcedure>(step.procedure); });
   for (const auto& definition : model.constraints) {
+    if (is_explicit && std::holds_alternative<GreatestDistance>(definition.kind))
+      errors.emplace_back(Location{definition.file, definition.line},
+                          fmt::format("{}: DIST pulls in implicit steps alone; replace it by a spring with a table (*SPRING, NONLINEAR)", definition.keyword));
     const auto* joint = std::get_if<Joint>(&definition.kind);
     if (joint == nullptr) continue;
     const auto first = body_of.find(joint->nodes[0]), second = body_of.find(joint->nodes[1]);

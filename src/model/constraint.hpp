@@ -46,6 +46,8 @@ struct DistributingCoupling {
   std::vector<std::int32_t> nodes;
   std::vector<double> weights;  // positive
   std::array<bool, 6> freedoms{true, true, true, true, true, true};
+  /// Rows: the directions that 3-5 turn about; they turn with the reference node.
+  std::array<std::array<double, 3>, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
 };
 
 /// A node that stays where it is between others: x = sum of weight * (x_i + offset at the start), the offset turning with the others
@@ -58,7 +60,18 @@ struct Tie {
   bool rotations = false;
 };
 
-using ConstraintKind = std::variant<LinearEquation, Joint, DistributingCoupling, Tie>;
+/// *MPC PLANE and STRAIGHT: the last node stays in the plane of the three before it, or on the line of the two before it.
+struct Alignment {
+  std::vector<std::int32_t> nodes;
+};
+
+/// *MPC DIST: two nodes that cannot get farther apart.
+struct GreatestDistance {
+  std::array<std::int32_t, 2> nodes{-1, -1};
+  double distance = 0.0;
+};
+
+using ConstraintKind = std::variant<LinearEquation, Joint, DistributingCoupling, Tie, Alignment, GreatestDistance>;
 
 struct ConstraintDefinition {
   ConstraintKind kind;

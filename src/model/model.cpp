@@ -67,6 +67,11 @@ double Amplitude::value(double time) const {
   return points[index][1] + weight * (points[index + 1][1] - points[index][1]);
 }
 
+const ImplicitIncrements* Step::implicit_increments() const {
+  if (const auto* statics = std::get_if<StaticProcedure>(&procedure)) return statics;
+  return std::get_if<DynamicProcedure>(&procedure);
+}
+
 InputError::InputError(std::vector<std::string> messages)
     : std::runtime_error(messages.empty() ? "bad input" : messages.front()), messages_(std::move(messages)) {}
 

@@ -250,6 +250,14 @@ struct InitialVelocity {
   Location location;
 };
 
+/// *INITIAL CONDITIONS, TYPE=DISPLACEMENT: where nodes are when the analysis begins, from their coordinates.
+struct InitialDisplacement {
+  std::vector<std::int32_t> nodes;
+  std::int32_t dof = 0;  // 0-2, global
+  double value = 0.0;
+  Location location;
+};
+
 /// *INITIAL CONDITIONS of elements: what a field of their law's history holds at all their points when the analysis begins.
 struct InitialField {
   std::string field;  // "S0": stress in the element's local directions (materials/initial_stress.hpp); "PEEQ": hardening
@@ -297,6 +305,7 @@ struct Model {
   std::vector<InitialField> initial_fields;
   std::optional<StateImport> state_import;
   std::vector<Step> steps;
+  std::vector<InitialDisplacement> initial_displacements;
 
   /// The last step before `step` that changed the state: what is not said anew goes on from it. -1: none.
   std::int32_t general_step_before(std::int32_t step) const;

@@ -39,6 +39,12 @@ struct ContactPoint {
   double implicit_spring = 0.0;  // implicit: stiffness that `multiplier` and `anchor` go with; 0: as for `stiff_spring`
 };
 
+/// What the alpha method of implicit dynamics goes on from, of three freedoms: global directions but for the force.
+struct AlphaMemory {
+  Point acceleration{};  // or angular acceleration
+  Point force{};         // internal - external at the end of the last increment, or moment, in the freedoms' directions
+};
+
 /// Work done on a node, by kind: up to now, explicit: up to the middle of the increment to come. Copies of a shared node hold the same bits; sums are taken over owners.
 struct NodalWork {
   double external = 0.0;  // loads, prescribed motion and reactions
@@ -72,6 +78,8 @@ struct State {
   // Of constraints, kept by the ranks that hold their nodes:
   std::vector<double> multiplier;          // per row of the model's constraints: force along its gradient
   std::vector<std::int32_t> implied_rows;  // explicit: rows that others implied when the step began, which are not solved for
+  // Implicit dynamics, empty unless such a step has gone on: of nodes; of nodes that turn; of rigid bodies' rotations.
+  std::vector<AlphaMemory> alpha_memory, alpha_memory_of_spins, alpha_memory_of_bodies;
 
   NodalMotion motion() const {
     return {.position = position.data(),

@@ -127,20 +127,39 @@ struct ImplicitControls {
 // A procedure is one struct of its settings here, one solver that registers itself (solvers/procedures.hpp) and one deck
 // keyword. What others ask of every procedure are its constants: they reach them through Step.
 
-struct StaticProcedure {
+/// How the procedures that solve equations advance in time, and what they make of displacements.
+struct ImplicitIncrements {
+  double initial_increment = 1.0, duration = 1.0, minimum_increment = 1e-5, maximum_increment = 1.0;
+  bool direct = false;  // fixed increments
+  bool nonlinear_geometry = false;
+  std::int32_t maximum_increments = 100;
+  ImplicitControls controls;
+};
+
+struct StaticProcedure : ImplicitIncrements {
   static constexpr std::string_view name = "static";
   static constexpr bool ramps_loads = true;     // loads without an amplitude grow linearly over the step
   static constexpr bool needs_mass = false;
   static constexpr bool has_few_increments = true;  // each is told, and written where a deck does not say when
   static constexpr bool is_perturbation = false;    // about the state, which it leaves as it is
+  static constexpr bool is_dynamic = false;         // velocities go on from step to step
+  static constexpr bool seeks_modes = false;        // and tells nothing else
 
-  double initial_increment = 1.0, duration = 1.0, minimum_increment = 1e-5, maximum_increment = 1.0;
-  bool direct = false;  // fixed increments
-  bool nonlinear_geometry = false;
-  std::int32_t maximum_increments = 100;
   bool stabilize = false;
   double dissipated_energy_fraction = 2e-4;
-  ImplicitControls controls;
+};
+
+/// The alpha method of Hilber, Hughes & Taylor (1977).
+struct DynamicProcedure : ImplicitIncrements {
+  static constexpr std::string_view name = "implicit dynamics";
+  static constexpr bool ramps_loads = false;
+  static constexpr bool needs_mass = true;
+  static constexpr bool has_few_increments = true;
+  static constexpr bool is_perturbation = false;
+  static constexpr bool is_dynamic = true;
+  static constexpr bool seeks_modes = false;
+
+  double alpha = -0.05;  // -1/3 (most damping of the highest frequencies) to 0 (none)
 };
 
 struct ExplicitProcedure {
@@ -149,6 +168,8 @@ struct ExplicitProcedure {
   static constexpr bool needs_mass = true;
   static constexpr bool has_few_increments = false;
   static constexpr bool is_perturbation = false;
+  static constexpr bool is_dynamic = true;
+  static constexpr bool seeks_modes = false;
 
   double duration = 0.0;
   std::optional<double> fixed_increment;  // *DYNAMIC, EXPLICIT, DIRECT USER CONTROL
@@ -164,6 +185,8 @@ struct FrequencyProcedure {
   static constexpr bool needs_mass = true;
   static constexpr bool has_few_increments = true;
   static constexpr bool is_perturbation = true;
+  static constexpr bool is_dynamic = false;
+  static constexpr bool seeks_modes = true;
   static constexpr double duration = 0.0;
 
   enum class Normalization { displacement, mass };  // of modes: largest displacement 1, or generalised mass 1
@@ -173,7 +196,41 @@ struct FrequencyProcedure {
   Normalization normalization = Normalization::displacement;
 };
 
-using Procedure = std::variant<StaticProcedure, ExplicitProcedure, FrequencyProcedure>;
+/// Load factors at which the structure, as it is loaded, has a second equilibrium beside: K + factor * (what the step's loads add to K).
+struct BuckleProcedure {
+  static constexpr std::string_view name = "buckle";
+  static constexpr bool ramps_loads = false;
+  static constexpr bool needs_mass = false;
+  static constexpr bool has_few_increments = true;
+  static constexpr bool is_perturbation = true;
+  static constexpr bool is_dynamic = false;
+  static constexpr bool seeks_modes = true;
+  static constexpr double duration = 0.0;
+
+  std::int32_t number = 1;
+};
+
+/// Response to the step's loads as a sum of the modes that the last frequency step found, from rest.
+struct ModalDynamicProcedure {
+  static constexpr std::string_view name = "modal dynamics";
+  static constexpr bool ramps_loads = false;
+  static constexpr bool needs_mass = true;
+  static constexpr bool has_few_increments = true;
+  static constexpr bool is_perturbation = true;
+  static constexpr bool is_dynamic = false;
+  static constexpr bool seeks_modes = false;
+
+  /// Of modes first <= number <= last: a fraction of critical damping, and of Rayleigh's alpha and beta.
+  struct Damping {
+    std::int32_t first = 1, last = 1;
+    double fraction = 0.0, alpha = 0.0, beta = 0.0;
+  };
+  double increment = 1.0, duration = 1.0;
+  std::int32_t maximum_increments = 100;
+  std::vector<Damping> damping;
+};
+
+using Procedure = std::variant<StaticProcedure, ExplicitProcedure, FrequencyProcedure, DynamicProcedure, BuckleProcedure, ModalDynamicProcedure>;
 
 struct Step {
   std::string name;
@@ -198,6 +255,10 @@ struct Step {
   bool needs_mass() const { return std::visit([](const auto& kind) { return kind.needs_mass; }, procedure); }
   bool has_few_increments() const { return std::visit([](const auto& kind) { return kind.has_few_increments; }, procedure); }
   bool is_perturbation() const { return std::visit([](const auto& kind) { return kind.is_perturbation; }, procedure); }
+  bool is_dynamic() const { return std::visit([](const auto& kind) { return kind.is_dynamic; }, procedure); }
+  bool seeks_modes() const { return std::visit([](const auto& kind) { return kind.seeks_modes; }, procedure); }
+  /// Null where the procedure solves no equations of motion or rest.
+  const ImplicitIncrements* implicit_increments() const;
 };
 
 }  // namespace balocco

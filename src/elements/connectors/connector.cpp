@@ -183,28 +183,48 @@ ConnectorGroup::Six ConnectorGroup::stretch(std::int32_t element, const Six& mot
   return result;
 }
 
-ConnectorGroup::Pull ConnectorGroup::pull(std::int32_t element, const Six& motion, std::span<const double> old_motion, double increment) const {
+ConnectorGroup::Rate ConnectorGroup::mean_rate(const Six& motion, std::span<const double> old_motion, double increment) {
+  Rate rate;
+  if (increment <= 0.0) return rate;
+  for (int c = 0; c < 6; ++c) rate.velocity[c] = (motion[c] - old_motion[c]) / increment;
+  rate.slope = 1.0 / increment;
+  return rate;
+}
+
+/// Implicit dynamics know the velocities themselves.
+ConnectorGroup::Rate ConnectorGroup::rate(std::int32_t element, const Kinematics& now, const NodalMotion& motion,
+                                          std::span<const double> old_motion) const {
+  if (motion.velocity_slope <= 0.0) return mean_rate(now.motion, old_motion, motion.increment);
+  Rate rate{.slope = motion.velocity_slope};
+  for (int end = 0; end < 2; ++end)
+    for (int k = 0; k < freedoms_per_node_; ++k) {
+      const double velocity = (k < 3 ? motion.velocity : motion.angular_velocity)[4 * std::ptrdiff_t{nodes(element)[end]} + k % 3];
+      for (int c = 0; c < 6; ++c) rate.velocity[c] += now.gradient[c][6 * end + k] * velocity;
+    }
+  return rate;
+}
+
+ConnectorGroup::Pull ConnectorGroup::pull(std::int32_t element, const Six& motion, const Rate& rate) const {
   Pull result;
   const auto stretched = stretch(element, motion);
   result.elastic = coupled(connector_.coupled_elasticity, stretched);
-  Six velocity{};
-  for (int c = 0; c < 6 && increment > 0.0; ++c) velocity[c] = (motion[c] - old_motion[c]) / increment;
+  const auto& velocity = rate.velocity;
   const auto viscous = coupled(connector_.coupled_damping, velocity);
   for (int c = 0; c < 6; ++c) {
     Six unit{};
     unit[c] = 1.0;
     const auto by_motion = coupled(connector_.coupled_elasticity, unit), by_velocity = coupled(connector_.coupled_damping, unit);
-    for (int i = 0; i < 6; ++i) result.slope[i][c] = by_motion[i] + (increment > 0.0 ? by_velocity[i] / increment : 0.0);
+    for (int i = 0; i < 6; ++i) result.slope[i][c] = by_motion[i] + by_velocity[i] * rate.slope;
     if (elasticity_[c]) {
       const auto [force, slope] = elasticity_[c]->at(stretched[c]);
       result.elastic[c] += force;
       result.slope[c][c] += slope;
     }
     result.force[c] = result.elastic[c] + viscous[c];
-    if (!damping_[c] || increment <= 0.0) continue;
+    if (!damping_[c] || rate.slope <= 0.0) continue;
     const auto [force, slope] = damping_[c]->at(velocity[c]);
     result.force[c] += force;
-    result.slope[c][c] += slope / increment;
+    result.slope[c][c] += slope * rate.slope;
   }
   return result;
 }
@@ -238,7 +258,7 @@ void ConnectorGroup::add_force(std::int32_t element, const ExplicitCycle& cycle,
   gather_history(element, history, before);
   after = before;
   const auto now = kinematics(element, cycle.motion, std::span(before).first(6));
-  const auto pulled = pull(element, now.motion, std::span(before).first(6), cycle.increment);
+  const auto pulled = pull(element, now.motion, mean_rate(now.motion, std::span(before).first(6), cycle.increment));
   update(now, pulled, before, after);
   scatter_history(element, after, history);
   for (int end = 0; end < 2; ++end) {
@@ -255,7 +275,7 @@ void ConnectorGroup::add_force(std::int32_t element, const ExplicitCycle& cycle,
 bool ConnectorGroup::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                                std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const {
   const auto now = kinematics(element, motion, old_history.first(6));
-  const auto pulled = pull(element, now.motion, old_history.first(6), motion.increment);
+  const auto pulled = pull(element, now.motion, rate(element, now, motion, old_history.first(6)));
   update(now, pulled, old_history, new_history);
   const int size = 2 * freedoms_per_node_;
   const auto column = [&](int k) { return 6 * (k / freedoms_per_node_) + k % freedoms_per_node_; };

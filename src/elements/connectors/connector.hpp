@@ -53,6 +53,10 @@ class ConnectorGroup : public ElementGroup {
     Six elastic{};
     std::array<Six, 6> slope{};                  // by the relative motions at the end of the increment
   };
+  struct Rate {
+    Six velocity{};
+    double slope = 0.0;  // by the relative motions; 0: no rate is known
+  };
   struct Place {
     std::array<Vector3<double>, 2> position;
     std::array<Matrix3<double>, 2> rotation;
@@ -67,7 +71,9 @@ class ConnectorGroup : public ElementGroup {
   Kinematics kinematics(std::int32_t element, const NodalMotion& motion, std::span<const double> old_motion) const;
   void add_curvature(std::int32_t element, const NodalMotion& motion, const Six& force, std::span<double> stiffness) const;
   Six stretch(std::int32_t element, const Six& motion) const;
-  Pull pull(std::int32_t element, const Six& motion, std::span<const double> old_motion, double increment) const;
+  static Rate mean_rate(const Six& motion, std::span<const double> old_motion, double increment);
+  Rate rate(std::int32_t element, const Kinematics& now, const NodalMotion& motion, std::span<const double> old_motion) const;
+  Pull pull(std::int32_t element, const Six& motion, const Rate& rate) const;
   void update(const Kinematics& now, const Pull& pulled, std::span<const double> old_history, std::span<double> new_history) const;
   Restraint bound(std::int32_t element, int first) const;
   void add_force(std::int32_t element, const ExplicitCycle& cycle, std::span<double> history) const;

@@ -93,6 +93,15 @@ SpringGroup::Elongation SpringGroup::elongation(std::int32_t element, const Noda
   return result;
 }
 
+SpringGroup::Pull SpringGroup::pull(std::int32_t element, const Elongation& now, const NodalMotion& motion, double old_elongation) const {
+  if (!viscous_ || motion.velocity_slope <= 0.0) return pull(now.value, old_elongation, motion.increment);
+  double rate = 0.0;
+  for (int end = 0; end < nodes_per_element_; ++end)
+    rate += dot(now.gradient[end], entry(turns() ? motion.angular_velocity : motion.velocity, nodes(element)[end]));
+  const auto [force, slope] = curve_.at(rate);
+  return {force, slope * motion.velocity_slope};
+}
+
 SpringGroup::Pull SpringGroup::pull(double elongation, double old_elongation, double increment) const {
   if (!viscous_) {
     const auto [force, slope] = curve_.at(elongation);
@@ -125,7 +134,7 @@ void SpringGroup::add_force(std::int32_t element, const ExplicitCycle& cycle, st
 bool SpringGroup::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
                             std::span<double> new_history, std::span<double> force, std::span<double> stiffness) const {
   const Elongation now = elongation(element, motion);
-  const Pull pulled = pull(now.value, old_history[elongation_row], motion.increment);
+  const Pull pulled = pull(element, now, motion, old_history[elongation_row]);
   if (axial_ && !(now.value + origin_[element] > 0.0)) return false;
   new_history[elongation_row] = now.value;
   new_history[force_row] = pulled.force;

@@ -56,6 +56,8 @@ class SpringGroup final : public ElementGroup {
   Elongation elongation(std::int32_t element, const NodalMotion& motion) const;
   void add_force(std::int32_t element, const ExplicitCycle& cycle, std::span<double> history) const;
   Pull pull(double elongation, double old_elongation, double increment) const;
+  /// Implicit dynamics know the rate itself, other procedures its mean over the increment.
+  Pull pull(std::int32_t element, const Elongation& now, const NodalMotion& motion, double old_elongation) const;
   int point_components(std::string_view variable) const override;
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override;
