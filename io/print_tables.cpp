@@ -276,8 +276,11 @@ std::string PrintTables::element_tables(const ResultSource& source, const Reques
 
 void PrintTables::advance(const ResultSource& source, const Progress& progress) {
   std::string text;
-  const bool modes = model_.steps[step_].is_perturbation();
-  if (modes && !modes_.empty()) text = eigenvalue_tables(modes_) + tables_of_modes_;
+  const bool modes = model_.steps[step_].seeks_modes();
+  if (modes && !modes_.empty()) {
+    const bool buckles = std::holds_alternative<BuckleProcedure>(model_.steps[step_].procedure);
+    text = (buckles ? load_factor_table(modes_) : eigenvalue_tables(modes_)) + tables_of_modes_;
+  }
   for (const auto& request : requests_) {
     if (modes || (progress.increment % request.output->frequency != 0 && !progress.step_finished)) continue;
     if (text.empty()) text = increment_heading(progress.increment);

@@ -135,6 +135,12 @@ std::string eigenvalue_tables(const std::vector<Mode>& modes) {
   return text + table_of_modes("E F F E C T I V E   M O D A L   M A S S", normalized, &Mode::effective_mass, true);
 }
 
+std::string load_factor_table(const std::vector<Mode>& modes) {
+  std::string text = "\n     B U C K L I N G   F A C T O R   O U T P U T\n\n MODE NO       BUCKLING\n                FACTOR\n\n";
+  for (const auto& mode : modes) text += fmt::format("{:7}  {}\n", mode.number, fortran_real(mode.eigenvalue));
+  return text;
+}
+
 std::string mode_heading(std::int32_t number) {
   return fmt::format("\n\n                    E I G E N V A L U E    N U M B E R {:5}\n\n", number);
 }

@@ -31,6 +31,8 @@ std::string totals_row(std::span<const double> values);
 
 /// The tables that every frequency step prints.
 std::string eigenvalue_tables(const std::vector<Mode>& modes);
+/// That of a buckle step.
+std::string load_factor_table(const std::vector<Mode>& modes);
 std::string mode_heading(std::int32_t number);
 
 }  // namespace balocco

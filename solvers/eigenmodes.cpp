@@ -62,11 +62,11 @@ int Eigenmodes::count_below(double value) {
   return static_cast<int>(negative) - multipliers_;  // each independent constraint turns one eigenvalue into a pair of both signs
 }
 
-std::vector<EigenPair> Eigenmodes::nearest(double shift, int number) {
+std::vector<EigenPair> Eigenmodes::nearest(double shift, int number, EPSProblemType type) {
   EigenSolver solver;
   petsc(EPSCreate(communicator_.handle(), solver.address()));
   petsc(EPSSetOperators(solver, stiffness_, mass_));
-  petsc(EPSSetProblemType(solver, EPS_GHEP));
+  petsc(EPSSetProblemType(solver, type));
   petsc(EPSSetWhichEigenpairs(solver, EPS_TARGET_MAGNITUDE));
   petsc(EPSSetTarget(solver, shift));
   petsc(EPSSetDimensions(solver, number, PETSC_DEFAULT, PETSC_DEFAULT));
@@ -97,6 +97,20 @@ std::vector<EigenPair> Eigenmodes::nearest(double shift, int number) {
   }
   std::ranges::sort(pairs, {}, &EigenPair::value);
   return pairs;
+}
+
+std::vector<EigenPair> Eigenmodes::least_positive(int number) {
+  PetscInt equations = 0;
+  petsc(MatGetSize(stiffness_, &equations, nullptr));
+  for (int asked = std::min<PetscInt>(2 * number + 8, equations);; asked = std::min<PetscInt>(2 * asked, equations)) {
+    auto pairs = nearest(0.0, asked, EPS_GNHEP);  // no norm comes from a matrix that is not definite
+    std::erase_if(pairs, [](const auto& pair) { return !(pair.value > 0.0); });
+    if (static_cast<int>(pairs.size()) >= number || asked == equations || asked > 16 * number + 64) {
+      if (pairs.empty()) throw AnalysisError("no load factor above zero was found: these loads do not make the structure buckle");
+      if (static_cast<int>(pairs.size()) > number) pairs.resize(number);
+      return pairs;
+    }
+  }
 }
 
 /// Rigid motions, right beside a small shift, dwarf the others in the inverse and cost them digits: then once more from a shift

@@ -32,12 +32,14 @@ class Eigenmodes {
   int count_below(double value);
   /// The pairs in the range, in rising order: negative ones too, but for those far below all others. @throws AnalysisError. Collective.
   std::vector<EigenPair> find(EigenRange range);
+  /// The lowest positive pairs, of a stiffness that resists every motion and any symmetric `mass`. @throws AnalysisError. Collective.
+  std::vector<EigenPair> least_positive(int number);
   /// A value near zero against all that counts, and below the zeros of rigid motions. Collective.
   double small_shift() const;
 
  private:
   std::vector<EigenPair> search(const EigenRange& range);
-  std::vector<EigenPair> nearest(double shift, int number);
+  std::vector<EigenPair> nearest(double shift, int number, EPSProblemType type = EPS_GHEP);
 
   Mat stiffness_, mass_;
   int multipliers_;
