@@ -1,0 +1,52 @@
+// *MODAL DYNAMIC *MODAL DAMPING.
+#include <fmt/format.h>
+
+#include "deck/builder.hpp"
+#include "deck/register.hpp"
+#include "deck/step_draft.hpp"
+#include "deck/text.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+void read_modal_dynamic(Builder& builder, const Block& block) {
+  if (!begin_procedure(builder, block)) return;
+  auto& procedure = builder.model.steps.back().procedure.emplace<ModalDynamicProcedure>();
+  procedure.maximum_increments = builder.draft.maximum_increments;
+  if (block.lines.empty()) return builder.error(block, block.location, "increment and period are missing; add a line: increment, period");
+  Row row(builder, block, block.lines[0]);
+  procedure.increment = row.real(0, "time increment");
+  procedure.duration = row.real(1, "time period");
+  row.at_most(2);
+  if (row.ok() && !(procedure.increment > 0.0 && procedure.duration >= procedure.increment))
+    row.error(fmt::format("increment {} and period {} must be positive, and the increment not the greater; correct them", procedure.increment,
+                          procedure.duration));
+}
+
+/// Lines "first mode, last mode, fraction of critical damping", with RAYLEIGH "first mode, last mode, alpha, beta".
+void read_modal_damping(Builder& builder, const Block& block) {
+  auto* procedure = std::get_if<ModalDynamicProcedure>(&builder.model.steps.back().procedure);
+  if (procedure == nullptr) return builder.error(block, block.location, "only *MODAL DYNAMIC has it; put it behind that keyword");
+  const bool rayleigh = block.has("RAYLEIGH");
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    ModalDynamicProcedure::Damping damping;
+    damping.first = static_cast<std::int32_t>(row.integer(0, "first mode"));
+    damping.last = static_cast<std::int32_t>(row.integer_or(1, damping.first, "last mode"));
+    (rayleigh ? damping.alpha : damping.fraction) = row.real_or(2, 0.0, rayleigh ? "alpha" : "fraction of critical damping");
+    if (rayleigh) damping.beta = row.real_or(3, 0.0, "beta");
+    row.at_most(rayleigh ? 4 : 3);
+    if (row.ok() && (damping.first < 1 || damping.last < damping.first))
+      row.error(fmt::format("there are no modes {} to {}; correct fields 1 and 2", damping.first, damping.last));
+    if (row.ok() && (damping.fraction < 0.0 || damping.alpha < 0.0 || damping.beta < 0.0)) row.error("damping must not be negative; correct it");
+    if (row.ok()) procedure->damping.push_back(damping);
+  }
+}
+
+const RegisterKeyword modal_dynamic{{"MODAL DYNAMIC", Phase::history, Place::step, {foreign("SOLVER")}, read_modal_dynamic}};
+const RegisterKeyword modal_damping{{"MODAL DAMPING", Phase::history, Place::step, {flag("RAYLEIGH")}, read_modal_damping}};
+
+}  // namespace
+
+}  // namespace balocco::deck
