@@ -118,6 +118,23 @@ void add_distributing(Builder& builder, const Cloud& cloud, std::array<bool, 6> 
       {DistributingCoupling{cloud.reference, cloud.nodes, cloud.weights, freedoms}, keyword, location.file, location.line});
 }
 
+/// Rotations about some axes of an ORIENTATION alone: as in CalculiX the reference node's degrees of freedom count along these axes, and
+/// about the others, which nothing would hold, it does not turn.
+void turn_about_own_axes(Builder& builder, const Block& block, const Cloud& cloud, const std::array<bool, 6>& freedoms) {
+  Model& model = builder.model;
+  const auto location = builder.coupling->location;
+  std::get<DistributingCoupling>(model.constraints.back().kind).axes = cloud.axes;
+  const bool has_axes = std::ranges::any_of(model.transforms, [&](const auto& transform) { return std::ranges::count(transform.nodes, cloud.reference) > 0; });
+  const bool has_elements = std::ranges::any_of(model.elements, [&](const auto& table) { return std::ranges::count(table.connectivity, cloud.reference) > 0; });
+  if (has_axes || has_elements)
+    return builder.error(block, block.location,
+                         "rotations about some axes of an ORIENTATION alone are distributed for a reference node without elements and without "
+                         "*TRANSFORM; give all of 4 to 6, or none");
+  model.transforms.push_back({{cloud.reference}, model.orientations[*builder.require(builder.orientations, builder.coupling->value("ORIENTATION"), *builder.coupling, location)]});
+  for (std::int32_t dof = 3; dof < 6; ++dof)
+    if (!freedoms[dof]) model.constraints.push_back({LinearEquation{{{cloud.reference, dof, 1.0}}}, "*COUPLING", location.file, location.line});
+}
+
 /// *COUPLING waits for the keyword that says which kind it is.
 void read_coupling(Builder& builder, const Block& block) {
   builder.coupling = &block;
@@ -149,10 +166,9 @@ void read_distributing(Builder& builder, const Block& block) {
   const auto freedoms = read_freedoms(builder, block);
   if (!cloud || !freedoms) return;
   const bool turns_partly = std::ranges::count(freedoms->begin() + 3, freedoms->end(), true) % 3 != 0;
-  if (turns_partly && builder.coupling->has("ORIENTATION"))
-    return builder.error(block, block.location, "rotations about some axes of an ORIENTATION alone cannot be distributed; give all of 4 to 6, or none");
   weigh(builder.model, squeeze(block.value("WEIGHTING METHOD")), *cloud);
   add_distributing(builder, *cloud, *freedoms, "*COUPLING", builder.coupling->location);
+  if (turns_partly && builder.coupling->has("ORIENTATION")) turn_about_own_axes(builder, block, *cloud, *freedoms);
 }
 
 /// Lines "node or set, first degree of freedom, last" of the older keyword.

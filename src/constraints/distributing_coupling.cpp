@@ -24,6 +24,9 @@ DistributingConstraint::DistributingConstraint(const Model& model, const Distrib
     length += weight_[i] * std::sqrt(dot(arm_.back(), arm_.back()));
   }
   if (length > 0.0) lever_ = length;
+  if (coupling.axes != DistributingCoupling{}.axes)
+    for (int axis = 0; axis < 3; ++axis)
+      for (const auto& arm : arm_) own_arm_[axis].push_back(cross(Vector3<double>{coupling.axes[axis]}, arm));
   if (std::count(freedoms_.begin() + 3, freedoms_.end(), true) == 3) find_loose_directions();
   offset_ = place(coupling.reference) - center;
   rotates_ = rotates_ || dot(offset_, offset_) > 1e-24 * lever_ * lever_;  // a mean that moves an offset turns it
@@ -57,6 +60,11 @@ void DistributingConstraint::gaps(std::span<const NodePlace> places, std::span<d
   Vector3<double> moment = lever_ * (loose_ * places[0].turn);
   for (std::size_t i = 0; i < weight_.size(); ++i)
     moment = moment + (weight_[i] / lever_) * cross(rotation * arm_[i], places[i + 1].position - center);
+  for (int axis = 0; axis < 3 && !own_arm_[axis].empty(); ++axis) {
+    moment[axis] = 0.0;
+    for (std::size_t i = 0; i < weight_.size(); ++i)
+      moment[axis] += (weight_[i] / lever_) * dot(rotation * own_arm_[axis][i], places[i + 1].position - center);
+  }
   std::size_t row = 0;
   for (int c = 0; c < 6; ++c)
     if (freedoms_[c]) g[row++] = c < 3 ? apart[c] : moment[c - 3];
@@ -78,6 +86,16 @@ void DistributingConstraint::gradient(std::span<const NodePlace> places, std::sp
       line[3 + k] = -offset[l];  // -(spin x offset)
       line[3 + l] = offset[k];
       for (std::size_t i = 0; i < weight_.size(); ++i) line[6 * (i + 1) + j] = -weight_[i];
+      continue;
+    }
+    if (!own_arm_[j].empty()) {
+      for (std::size_t i = 0; i < weight_.size(); ++i) {
+        const auto arm = (weight_[i] / lever_) * (rotation * own_arm_[j][i]), by_spin = cross(arm, places[i + 1].position - center);
+        for (int m = 0; m < 3; ++m) {
+          line[3 + m] += by_spin[m];
+          line[6 * (i + 1) + m] = arm[m];
+        }
+      }
       continue;
     }
     for (int m = 0; m < 3; ++m) line[3 + m] = lever_ * loose_(j, m);
@@ -106,6 +124,20 @@ void DistributingConstraint::add_curvature(std::span<const NodePlace> places, st
       for (int k = 0; k < 3; ++k) pairs[12 * (3 + i) + 3 + k] += factor * (b[i] * c[k] - (i == k ? dot(b, c) : 0.0));
   };
   add_spins(-1.0, rotation * offset_, force);
+  for (int axis = 0; axis < 3 && !own_arm_[axis].empty(); ++axis)
+    for (std::size_t node = 0; node < weight_.size(); ++node) {
+      const auto arm = (moment[axis] * weight_[node] / lever_) * (rotation * own_arm_[axis][node]);
+      add_spins(1.0, arm, places[node + 1].position - center);
+      double* const pair = &pairs[144 * node];
+      for (int i = 0; i < 3; ++i) {  // (spin x arm) . displacement
+        const int k = (i + 1) % 3, l = (i + 2) % 3;
+        pair[12 * (6 + i) + 3 + k] += arm[l];
+        pair[12 * (6 + i) + 3 + l] -= arm[k];
+        pair[12 * (3 + k) + 6 + i] += arm[l];
+        pair[12 * (3 + l) + 6 + i] -= arm[k];
+      }
+    }
+  if (!own_arm_[0].empty()) return;
   for (std::size_t node = 0; node < weight_.size(); ++node) {
     const auto arm = (weight_[node] / lever_) * (rotation * arm_[node]);
     add_spins(1.0, arm, cross(places[node + 1].position - center, moment));

@@ -25,6 +25,8 @@ class DistributingConstraint : public Constraint {
   std::vector<Vector3<double>> arm_;  // from the mean to each node at the start
   Vector3<double> offset_{};          // from the mean to the reference node at the start
   std::array<bool, 6> freedoms_{};
+  /// The arms that moments about axes of the coupling's own have: axis x arm, by axis and node; they turn with the reference node. Empty: global axes.
+  std::array<std::vector<Vector3<double>>, 3> own_arm_;
   Matrix3<double> loose_{};           // projects onto directions about which the nodes, on a line or in one place, tell no rotation
   double lever_ = 1.0;                // weighted mean length of the arms: what rows of rotations are divided by
   bool rotates_ = false;
