@@ -24,7 +24,7 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 6;
+constexpr std::int64_t format_version = 7;
 
 ParallelFile::Layout plain_layout(int columns) {
   return {{static_cast<hsize_t>(columns)}, ParallelFile::Precision::double_, false};
@@ -67,6 +67,7 @@ void write_tables(ParallelFile& file, const Model& model, const Communicator& co
     const NodalWork& done = state.nodal_work[nodes.nodes[i]];
     work[i * work_values] = done.external;
     work[i * work_values + 1] = done.damping;
+    work[i * work_values + 2] = done.friction;
   }
   write("work", nodes.exchange, std::move(work), work_values);
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
@@ -107,22 +108,31 @@ void write_bodies(const Hdf5File& file, const State& state) {
 
 /// What all ranks know together of constraints: those that hold one hold the same bits of it, the others zero.
 struct ConstraintRows {
-  std::vector<double> multipliers, implied;  // implied: 1 where State::implied_rows names the row
+  std::vector<double> multipliers, guide_motions, locked, implied;  // implied: 1 where State::implied_rows names the row
 
-  ConstraintRows(const Communicator& communicator, const State& state) : multipliers(state.multiplier), implied(state.multiplier.size(), 0.0) {
+  ConstraintRows(const Communicator& communicator, const State& state)
+      : multipliers(state.multiplier), guide_motions(state.guide_motion), locked(state.guide_locked), implied(state.multiplier.size(), 0.0) {
     if (multipliers.empty()) return;
-    std::vector<double> opposite(multipliers.size());
-    std::ranges::transform(multipliers, opposite.begin(), std::negate<>());
     for (const auto row : state.implied_rows) implied[row] = 1.0;
-    for (auto* values : {&multipliers, &opposite, &implied}) communicator.maximum(std::span<double>(*values));
-    for (std::size_t row = 0; row < multipliers.size(); ++row)
-      if (multipliers[row] <= 0.0) multipliers[row] = -opposite[row];
+    for (auto* values : {&multipliers, &guide_motions}) share(communicator, *values);
+    for (auto* values : {&locked, &implied}) communicator.maximum(std::span<double>(*values));
+  }
+
+ private:
+  static void share(const Communicator& communicator, std::vector<double>& values) {
+    std::vector<double> opposite(values.size());
+    std::ranges::transform(values, opposite.begin(), std::negate<>());
+    for (auto* each : {&values, &opposite}) communicator.maximum(std::span<double>(*each));
+    for (std::size_t row = 0; row < values.size(); ++row)
+      if (values[row] <= 0.0) values[row] = -opposite[row];
   }
 };
 
 void read_constraint_rows(const Hdf5File& file, State& state) {
   if (!file.exists("/multipliers")) return;
   state.multiplier = file.read("/multipliers");
+  state.guide_motion = file.read("/guide_motions");
+  state.guide_locked = file.read("/guide_locked");
   const auto implied = file.read("/implied_rows");
   state.implied_rows.clear();
   for (std::size_t row = 0; row < implied.size(); ++row)
@@ -136,6 +146,8 @@ void write_header(const std::string& path, const Model& model, const State& stat
   write_bodies(file, state);
   if (!rows.multipliers.empty()) {
     file.write("/multipliers", {rows.multipliers.size(), 1}, rows.multipliers);
+    file.write("/guide_motions", {rows.guide_motions.size(), 1}, rows.guide_motions);
+    file.write("/guide_locked", {rows.locked.size(), 1}, rows.locked);
     file.write("/implied_rows", {rows.implied.size(), 1}, rows.implied);
   }
   write_identity(file, model);
@@ -230,7 +242,7 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
   const auto work = read("work", nodes.exchange, work_values);
   state.nodal_work.resize(std::max(state.nodal_work.size(), count));
   for (std::size_t i = 0; i < nodes.nodes.size(); ++i) {
-    state.nodal_work[nodes.nodes[i]] = {work[i * work_values], work[i * work_values + 1]};
+    state.nodal_work[nodes.nodes[i]] = {work[i * work_values], work[i * work_values + 1], work[i * work_values + 2]};
   }
   state.element_history.resize(groups.size());
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {

@@ -1,6 +1,6 @@
 #include "model_digest.hpp"
 
-#include "constraints/constraint.hpp"
+#include "constraints/guide.hpp"
 #include "elements/element_type.hpp"
 #include "hash.hpp"
 
@@ -97,6 +97,8 @@ std::uint64_t digest_of_constraint(const Model& model, const Constraint& constra
   Digest digest;
   digest.add(constraint.rows());
   for (const auto node : constraint.nodes()) digest.add(model.nodes.id[node]);
+  if (const auto* guide = constraint.guide())
+    for (int row = 0; row < guide->rows(); ++row) digest.add(guide->component(row));
   return digest.value();
 }
 

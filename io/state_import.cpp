@@ -33,7 +33,7 @@ class Importer {
       identity_.emplace(*file_);
       check_nodes();
       check_elements();
-      read_multipliers();
+      read_rows_of_constraints();
     });
     ParallelFile tables(path_, communicator_, ParallelFile::Mode::read);
     read_nodes(tables);
@@ -59,7 +59,7 @@ class Importer {
   void read_header();
   void check_nodes() const;
   void check_elements() const;
-  void read_multipliers();
+  void read_rows_of_constraints();
   void read_nodes(ParallelFile& tables);
   void read_histories(ParallelFile& tables);
   void read_contact(ParallelFile& tables);
@@ -116,14 +116,19 @@ void Importer::check_elements() const {
   }
 }
 
-void Importer::read_multipliers() {
-  state_.multiplier.clear();
-  const auto stored = file_->exists("/multipliers") ? file_->read("/multipliers") : std::vector<double>{};
-  for (const auto& constraint : make_constraints(model_)) {
-    const auto first = identity_->constraint(digest_of_constraint(model_, *constraint));
-    for (int row = 0; row < constraint->rows(); ++row)
-      state_.multiplier.push_back(first < 0 ? 0.0 : stored[static_cast<std::size_t>(first + row)]);
-  }
+void Importer::read_rows_of_constraints() {
+  const auto constraints = make_constraints(model_);
+  const auto read = [&](const char* name, std::vector<double>& values) {
+    values.clear();
+    const auto stored = file_->exists(name) ? file_->read(name) : std::vector<double>{};
+    for (const auto& constraint : constraints) {
+      const auto first = identity_->constraint(digest_of_constraint(model_, *constraint));
+      for (int row = 0; row < constraint->rows(); ++row) values.push_back(first < 0 ? 0.0 : stored[static_cast<std::size_t>(first + row)]);
+    }
+  };
+  read("/multipliers", state_.multiplier);
+  read("/guide_motions", state_.guide_motion);
+  read("/guide_locked", state_.guide_locked);
 }
 
 void Importer::read_nodes(ParallelFile& tables) {
@@ -142,7 +147,9 @@ void Importer::read_nodes(ParallelFile& tables) {
   if (file_->exists("/rotation")) set_rotations(nodes, read("rotation", rotation_values), state_);
   const auto work = read("work", work_values);
   state_.nodal_work.resize(std::max(state_.nodal_work.size(), count));
-  for (std::size_t i = 0; i < nodes.size(); ++i) state_.nodal_work[nodes[i]] = {work[i * work_values], work[i * work_values + 1]};
+  for (std::size_t i = 0; i < nodes.size(); ++i)
+    state_.nodal_work[nodes[i]] =
+        {work[i * work_values], work[i * work_values + 1], work[i * work_values + 2]};
 }
 
 /// Padded lanes repeat the last element of their group.

@@ -16,8 +16,8 @@ namespace balocco {
 constexpr int body_values = 16;
 /// Multiplier, closed, anchor 3, slip, frictional dissipation, stiff spring, its force, friction 3, implicit spring.
 constexpr int contact_values = 13;
-/// External, damping.
-constexpr int work_values = 2;
+/// External, damping, friction.
+constexpr int work_values = 3;
 /// What nodes that turn have beside positions and velocities: orientation 4, angular velocity 3, rotation 3.
 constexpr int rotation_values = 10;
 /// What implicit dynamics remember of a node's displacement and of its rotation: acceleration 3 and force 3 each.

@@ -113,11 +113,14 @@ void Analysis::make_local_constraints() {
   first_constraint_row.push_back(0);
   for (std::size_t i = 0; i < constraints.size(); ++i) {
     first_constraint_row.push_back(first_constraint_row.back() + constraints[i]->rows());
+    if (const auto connector = model.constraints[i].element; connector.table >= 0)
+      constraints_of_connector_[connector].push_back(static_cast<std::int32_t>(i));
     const auto& nodes = constraints[i]->nodes();
     if (std::ranges::all_of(nodes, [&](std::int32_t row) { return domain.local_node[row] >= 0; }))
       local_constraints.push_back(static_cast<std::int32_t>(i));
   }
-  current.multiplier.assign(static_cast<std::size_t>(first_constraint_row.back()), 0.0);
+  for (auto* of_rows : {&current.multiplier, &current.guide_motion, &current.guide_locked})
+    of_rows->assign(static_cast<std::size_t>(first_constraint_row.back()), 0.0);
 }
 
 void Analysis::find_places(std::int32_t constraint, std::vector<NodePlace>& places) const {
@@ -249,13 +252,13 @@ const std::vector<double>& Analysis::loaded_share(const BodyLoad& load) const {
   return whole;
 }
 
-/// Steps are linear until one has large displacements, needs iterations for contact, for laws that remember, for ropes or for springs with
-/// tables, or ties nodes where others have moved.
+/// Steps are linear until one has large displacements, needs iterations for contact, for laws that remember, for ropes, for springs with
+/// tables or for connectors that are stopped, rubbed or driven, or ties nodes where others have moved.
 bool Analysis::stays_linear(const Step& step) const {
   if (!current.linear || step.is_perturbation()) return current.linear;
   if (std::ranges::any_of(model.materials, [](const auto& material) { return !material.options.empty(); })) return false;
   if (std::ranges::any_of(model.sections, [](const auto& section) { return !section.spring.table.empty(); })) return false;
-  if (std::ranges::any_of(constraints, [](const auto& constraint) { return constraint->is_one_sided(); })) return false;
+  if (std::ranges::any_of(constraints, [](const auto& constraint) { return constraint->is_one_sided() || constraint->guide() != nullptr; })) return false;
   const auto* procedure = step.implicit_increments();
   const bool ties_moved_nodes =
       current.total_time > 0.0 && std::ranges::any_of(step.attachments, [](const auto& change) { return !change.release; });
@@ -327,13 +330,15 @@ void Analysis::apply_attachments(const Step& step) {
 
 void Analysis::take_up_checkpoint() {
   index_rigid_nodes();
-  current.multiplier.resize(static_cast<std::size_t>(first_constraint_row.back()), 0.0);
+  const std::array of_rows{&current.multiplier, &current.guide_motion, &current.guide_locked};
+  for (auto* values : of_rows) values->resize(static_cast<std::size_t>(first_constraint_row.back()), 0.0);
   std::size_t next = 0;
   for (std::size_t index = 0; index < constraints.size(); ++index) {
     if (next < local_constraints.size() && local_constraints[next] == static_cast<std::int32_t>(index))
       ++next;
     else  // other ranks keep them
-      std::fill(current.multiplier.begin() + first_constraint_row[index], current.multiplier.begin() + first_constraint_row[index + 1], 0.0);
+      for (auto* values : of_rows)
+        std::fill(values->begin() + first_constraint_row[index], values->begin() + first_constraint_row[index + 1], 0.0);
   }
 }
 

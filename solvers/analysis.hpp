@@ -112,6 +112,9 @@ class Analysis : public ResultSource {
   void leave_linear_geometry(const Step& step);
   SmallStrainOutput& small_strain() const;
   void make_local_constraints();
+  /// Adds what a connector's constraints exert to a total force CTF (as of a spring that is pulled), or to a part of it: CRF of what holds,
+  /// stops, locks or drives it, CSF of friction, CCF of loads.
+  void add_connector_forces(ElementRef connector, std::string_view variable, std::span<double> values) const;
   void sum_masses();
   template <class Visit>
   void for_each_energies(std::size_t group, Visit visit) const;
@@ -123,6 +126,7 @@ class Analysis : public ResultSource {
   void sum_rotary_inertia();
 
   std::vector<std::int32_t> carrier_, reference_of_, turning_body_;
+  std::map<ElementRef, std::vector<std::int32_t>> constraints_of_connector_;
   double mass_constant_ = 0.0;  // rounds shares of nodal masses
   /// By element set, whether mass, and whether consistent.
   mutable std::map<std::tuple<std::int32_t, bool, bool>, std::vector<double>> loaded_share_;

@@ -261,6 +261,8 @@ void Analysis::element(std::size_t index, std::string_view variable, std::int32_
     small_strain().output(group, variable, element, integration_point, current, history, values);
   else
     group.output(variable, element, integration_point, current.motion(), history, values);
+  if (!constraints_of_connector_.empty() && variable.starts_with('C'))
+    add_connector_forces({group.table(), group.row(element)}, variable, values);
 }
 
 void Analysis::internal_force(std::size_t index, std::int32_t element, std::span<double> force) const {
@@ -365,8 +367,10 @@ EnergyBalance Analysis::sum_energies() const {
     if (!domain.owned[node]) continue;
     add(work, current.nodal_work[node].external);
     add(viscous, current.nodal_work[node].damping);
+    add(friction, current.nodal_work[node].friction);
     add(work, -work_ahead[node].external);
     add(viscous, -work_ahead[node].damping);
+    add(friction, -work_ahead[node].friction);
   }
   for_each_contact_point(*this, [&](std::int32_t node, const RigidContact::Output& output, const ContactPoint& point,
                                     const RigidBodyState& master) {

@@ -13,7 +13,7 @@ namespace balocco {
 ExplicitLinkages::ExplicitLinkages(Analysis& analysis, const Step& step, const NodalConstraints& translations,
                                    const NodalConstraints& rotations, GyroscopicNodes& gyroscopic, RigidDynamics& bodies,
                                    InverseInertia& inverse)
-    : step_(step), translations_(translations), rotations_(rotations), gyroscopic_(gyroscopic), bodies_(bodies), inverse_(inverse) {
+    : step_(step), translations_(translations), rotations_(rotations), gyroscopic_(gyroscopic), bodies_(bodies), guides_(analysis, step), inverse_(inverse) {
   moves_.assign(static_cast<std::size_t>(analysis.domain.size()), false);
   turns_.assign(static_cast<std::size_t>(analysis.domain.turning), false);
   if (analysis.current.increment == 0) analysis.current.implied_rows.clear();
@@ -42,6 +42,7 @@ void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
   if (analysis.current.increment == 0) find_implied_rows(analysis, system);
   drop_implied_rows(analysis, system);
   number(system);
+  take_guides(analysis, system);
 }
 
 std::int32_t ExplicitLinkages::mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index) {
@@ -125,10 +126,15 @@ void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) con
   find_places(analysis, system);
   find_gradient(analysis, system);
   find_responses(analysis, system);
+  const auto is_guide = [&](const Member& member) { return analysis.constraints[member.constraint]->guide() != nullptr; };
   std::vector<SparseRow> rows;
   for (const auto& member : system.members)
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
       SparseRow row;
+      if (is_guide(member)) {  // they do not always hold
+        rows.push_back(row);
+        continue;
+      }
       const double* const line = &member.gradient[i * member.columns.size()];
       std::size_t k = 0;
       for (const auto m : member.movers) {
@@ -158,7 +164,7 @@ void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) con
   std::size_t next = 0;
   for (const auto& member : system.members)
     for (const int row : member.rows)
-      if (implied[next++]) analysis.current.implied_rows.push_back(analysis.first_constraint_row[member.constraint] + row);
+      if (implied[next++] && !is_guide(member)) analysis.current.implied_rows.push_back(analysis.first_constraint_row[member.constraint] + row);
 }
 
 void ExplicitLinkages::drop_implied_rows(const Analysis& analysis, System& system) const {
@@ -200,6 +206,7 @@ void ExplicitLinkages::number(System& system) const {
   }
   system.solution.assign(static_cast<std::size_t>(system.unknowns), 0.0);
   system.residual = system.solution;
+  system.holds.assign(static_cast<std::size_t>(system.rows), true);
 }
 
 void ExplicitLinkages::take_over(const System& system, InverseInertia& inverse) {

@@ -23,7 +23,7 @@ void add(Vector6& six, double factor, const Point& direction) {
   for (int c = 0; c < 3; ++c) six[c] += factor * direction[c];
 }
 
-constexpr int most_iterations = 8;
+constexpr int most_iterations = 8, most_passes = 16;
 /// Relative to the size of the model: what iterations must not leave.
 constexpr double largest_gap = 1e-3;
 
@@ -110,13 +110,16 @@ bool ExplicitLinkages::factorizes(System& system, double average) const {
   for (const auto& member : system.members)
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
       const int row = member.first_row + static_cast<int>(i);
+      const bool holds = system.holds[row];
+      if (!holds) add_to(row, row, 1.0);  // its multiplier is given
       for (const auto& [index, first, other_first, size] : member.shared) {
         const auto& other = system.members[index];
         const double* const answer = &member.answer[i * member.columns.size() + first];
         for (std::size_t j = &other == &member ? i : 0; j < other.rows.size(); ++j) {
           const double* const g = &other.gradient[j * other.columns.size() + other_first];
+          const bool joined = holds && system.holds[other.first_row + j];
           double sum = 0.0;
-          for (int k = 0; k < size; ++k) sum += answer[k] * g[k];
+          for (int k = 0; joined && k < size; ++k) sum += answer[k] * g[k];
           add_to(row, other.first_row + static_cast<int>(j), sum);
         }
       }
@@ -124,7 +127,7 @@ bool ExplicitLinkages::factorizes(System& system, double average) const {
       for (const auto m : member.movers) {
         const auto& mover = system.movers[m];
         for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k)
-          add_to(row, mover.first_unknown + static_cast<int>(k), dot(vector(g), Vector3<double>{mover.directions[k]}));
+          add_to(row, mover.first_unknown + static_cast<int>(k), holds ? dot(vector(g), Vector3<double>{mover.directions[k]}) : 0.0);
         g += mover.size;
       }
     }
@@ -159,7 +162,10 @@ void ExplicitLinkages::find_constraint_forces(System& system) const {
 void ExplicitLinkages::find_base(const Analysis& analysis, System& system, const Instant& instant, const NodalForces& forces) const {
   const auto& state = analysis.current;
   for (auto& mover : system.movers) {
-    if (mover.kind == Mover::Kind::body) continue;
+    if (mover.kind == Mover::Kind::body) {
+      mover.old_velocity = bodies_.velocity(analysis, static_cast<std::size_t>(mover.index));
+      continue;
+    }
     const bool translates = mover.kind == Mover::Kind::translation;
     const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(mover.index);
     const double* const force = (translates ? forces.force : forces.moment) + at;
@@ -218,7 +224,16 @@ NodePlace ExplicitLinkages::place_after(const Analysis& analysis, const System& 
   return place;
 }
 
-double ExplicitLinkages::find_residual(const Analysis& analysis, System& system, double next) const {
+double ExplicitLinkages::System::rate(const Member& member, std::size_t row, Vector6 Mover::*velocity) const {
+  double sum = 0.0;
+  for (std::size_t k = 0; k < member.columns.size(); ++k) {
+    const auto [mover, component] = mover_of_column[member.columns[k]];
+    sum += member.gradient[row * member.columns.size() + k] * (movers[mover].*velocity)[component];
+  }
+  return sum;
+}
+
+double ExplicitLinkages::find_residual(const Analysis& analysis, System& system, double next, bool from_rest) const {
   double largest = 0.0;
   for (const auto& member : system.members) {
     const auto& constraint = *analysis.constraints[member.constraint];
@@ -229,11 +244,18 @@ double ExplicitLinkages::find_residual(const Analysis& analysis, System& system,
       constraint.gaps(places_, gaps_);
     }
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
-      double rate = next > 0.0 ? gaps_[member.rows[i]] / next : 0.0;
-      if (next > 0.0) largest = std::max(largest, std::abs(gaps_[member.rows[i]]));
-      for (std::size_t k = 0; next == 0.0 && k < member.columns.size(); ++k)
-        rate += member.gradient[i * member.columns.size() + k] * system.velocity_at(member.columns[k]);
-      system.residual[member.first_row + i] = rate;
+      double& rate = system.residual[member.first_row + i];
+      rate = 0.0;
+      if (!system.holds[member.first_row + i]) continue;
+      const auto* const law = constraint.guide() != nullptr ? &guides_.of(analysis.first_constraint_row[member.constraint] + member.rows[i]) : nullptr;
+      if (next == 0.0) {
+        rate = system.rate(member, i, &Mover::velocity) - (law != nullptr && law->sticks() && !from_rest ? law->rate : 0.0);
+        continue;
+      }
+      double gap = gaps_[member.rows[i]];
+      if (law != nullptr) gap = guides_.motion(analysis, member.constraint, member.rows[i], gap) - law->held_at();
+      largest = std::max(largest, std::abs(gap));
+      rate = gap / next;
     }
   }
   for (const auto& mover : system.movers)
@@ -242,20 +264,38 @@ double ExplicitLinkages::find_residual(const Analysis& analysis, System& system,
   return largest;
 }
 
-/// They are close to the new ones, but for those of an implicit step, which count the other way. From the state, so that a restart
-/// begins alike.
+/// They are close to the new ones. From the state, so that a restart begins alike.
 void ExplicitLinkages::begin_with_last_multipliers(const Analysis& analysis, System& system) const {
   std::ranges::fill(system.solution, 0.0);
-  if (analysis.current.increment == 0) return;
   for (const auto& member : system.members)
     for (std::size_t i = 0; i < member.rows.size(); ++i)
-      system.solution[member.first_row + i] = analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]];
+      system.solution[member.first_row + i] = -analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]];
+}
+
+double ExplicitLinkages::solve(Analysis& analysis, System& system, const Instant& instant) {
+  constexpr double resolution = 4.0 * std::numeric_limits<double>::epsilon();
+  begin_with_last_multipliers(analysis, system);
+  take_guides(analysis, system);
+  double gap = 0.0;
+  for (int iteration = 0; iteration < most_iterations; ++iteration) {
+    find_constraint_forces(system);
+    find_velocities(analysis, system, instant);
+    const double before = gap;
+    gap = find_residual(analysis, system, instant.next);
+    const bool resolved = gap <= resolution * system.size || (iteration > 1 && !(gap <= 0.5 * before));
+    if (iteration > 0 && (instant.next == 0.0 || resolved)) break;
+    correct(system);
+  }
+  return gap;
 }
 
 void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, const NodalForces& forces) {
-  constexpr double resolution = 4.0 * std::numeric_limits<double>::epsilon();
+  guides_.begin_increment(analysis);
+  guides_.aim(analysis, instant);
+  guides_.guess(analysis);
   for (auto& system : systems_) {
     find_places(analysis, system);
+    take_guides(analysis, system);
     const bool constant = system.is_linear && system.factorized_for == instant.average();
     if (!constant) {
       find_gradient(analysis, system);
@@ -263,21 +303,16 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
       factorize(analysis, system, instant.average());
     }
     find_base(analysis, system, instant, forces);
-    begin_with_last_multipliers(analysis, system);
-    double gap = 0.0;
-    for (int iteration = 0; iteration < most_iterations; ++iteration) {
-      find_constraint_forces(system);
-      find_velocities(analysis, system, instant);
-      const double before = gap;
-      gap = find_residual(analysis, system, instant.next);
-      const bool resolved = gap <= resolution * system.size || (iteration > 1 && !(gap <= 0.5 * before));
-      if (iteration > 0 && (instant.next == 0.0 || resolved)) break;
-      correct(system);
+    double gap = solve(analysis, system, instant);
+    for (int pass = 0; pass < most_passes && settle_guides(analysis, system, instant.next); ++pass) {
+      take_guides(analysis, system);
+      factorize(analysis, system, instant.average());
+      gap = solve(analysis, system, instant);
     }
     if (!(gap <= largest_gap * system.size)) report_apart(analysis, system, gap);
     for (const auto& member : system.members)
       for (std::size_t i = 0; i < member.rows.size(); ++i)
-        analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]] = system.solution[member.first_row + i];
+        analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]] = -system.solution[member.first_row + i];
     for (const auto& mover : system.movers)
       if (mover.kind == Mover::Kind::body) bodies_.add_force(static_cast<std::size_t>(mover.index), mover.constraint_force);
     system.average = instant.average();
@@ -286,10 +321,20 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
 
 void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
   auto& state = analysis.current;
+  guides_.begin_increment(analysis);
+  guides_.refuse_jumps(analysis);
+  guides_.aim(analysis, {state.step_time, state.total_time, 0.0, 0.0});
+  guides_.guess(analysis);
   for (auto& system : systems_) {
     find_places(analysis, system);
     find_gradient(analysis, system);
     find_responses(analysis, system);
+    take_guides(analysis, system);
+    for (const auto& member : system.members)  // friction brakes in time
+      for (std::size_t i = 0; i < member.rows.size() && analysis.constraints[member.constraint]->guide() != nullptr; ++i) {
+        const auto& law = guides_.of(analysis.first_constraint_row[member.constraint] + member.rows[i]);
+        if (law.sticks() && law.friction != GuideLaw::unbounded) system.holds[member.first_row + i] = false;
+      }
     factorize(analysis, system, 1.0);
     std::ranges::fill(system.solution, 0.0);
     std::ranges::fill(system.residual, 0.0);
@@ -325,8 +370,9 @@ void ExplicitLinkages::add_resting_forces(const Analysis& analysis, const NodalF
     find_places(analysis, system);
     find_gradient(analysis, system);
     find_responses(analysis, system);
-    factorize(analysis, system, 1.0);
     std::ranges::fill(system.solution, 0.0);
+    take_guides(analysis, system);
+    factorize(analysis, system, 1.0);
     for (auto& mover : system.movers) {
       const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(mover.index);
       mover.load = {};
@@ -337,7 +383,7 @@ void ExplicitLinkages::add_resting_forces(const Analysis& analysis, const NodalF
         std::copy_n((mover.kind == Mover::Kind::translation ? forces.force : forces.moment) + at, 3, mover.load.component.begin());
       mover.velocity = mover.response * mover.load;  // accelerations, of nodes at rest
     }
-    find_residual(analysis, system, 0.0);
+    find_residual(analysis, system, 0.0, true);
     correct(system);
     find_constraint_forces(system);
     for (const auto& mover : system.movers) {

@@ -9,6 +9,7 @@
 #include "explicit_bodies.hpp"
 #include "explicit_gyroscopic.hpp"
 #include "explicit_motion.hpp"
+#include "guide_laws.hpp"
 #include "math/definite_solver.hpp"
 #include "math/pivoting_solver.hpp"
 #include "sparse_solver.hpp"
@@ -53,6 +54,9 @@ class ExplicitLinkages {
   void add_gyroscopic_moments(double* moment) const;
   /// Accelerations of the nodes that linkages move.
   void add_to_output(Analysis& analysis) const;
+  /// Work of guides over half an increment: the last one, with velocities before find_motion(), or the next one.
+  enum class Half { last, next };
+  void add_guide_work(const Analysis& analysis, Half half, double increment, std::vector<NodalWork>& work) const;
 
  private:
   /// Something with a velocity of its own: displacement or rotation of a node, or a body with both.
@@ -112,15 +116,14 @@ class ExplicitLinkages {
     SparseSolver sparse_factors;             // of large ones
     double factorized_for = 0.0;             // average increment; 0: none
     std::vector<double> solution, residual;  // multipliers and velocities
+    std::vector<bool> holds;                 // of rows: else the multiplier is given
     std::vector<double> row;                 // scratch, a value a column
 
     /// Larger systems are solved by a sparse factorisation.
     bool is_small() const { return unknowns <= 60; }
     bool is_definite() const { return unknowns == rows; }
-    double velocity_at(int column) const {
-      const auto [mover, component] = mover_of_column[column];
-      return movers[mover].velocity[component];
-    }
+    /// Of a row's gap, with the velocities of the movers before or after the instant.
+    double rate(const Member& member, std::size_t row, Vector6 Mover::*velocity) const;
   };
 
   void add_system(Analysis& analysis, const Linkage& linkage);
@@ -145,18 +148,25 @@ class ExplicitLinkages {
   [[noreturn]] void report_singular(const Analysis& analysis, const System& system) const;
   [[noreturn]] void report_apart(const Analysis& analysis, const System& system, double gap) const;
   void correct(System& system) const;
+  /// One motion by the rows that hold. @return the largest gap
+  double solve(Analysis& analysis, System& system, const Instant& instant);
+  /// Rows of guides, by their laws: takes over what holds and the multipliers that are given;
+  void take_guides(const Analysis& analysis, System& system) const;
+  /// what their motions or forces say of that. @return whether other rows hold now.
+  bool settle_guides(const Analysis& analysis, System& system, double next);
   void begin_with_last_multipliers(const Analysis& analysis, System& system) const;
   void find_constraint_forces(System& system) const;
   void find_base(const Analysis& analysis, System& system, const Instant& instant, const NodalForces& forces) const;
   void find_velocities(const Analysis& analysis, System& system, const Instant& instant) const;
-  /// Gaps at the end of the next increment, over it (velocities, where there is none). @return the largest gap.
-  double find_residual(const Analysis& analysis, System& system, double next) const;
+  /// Gaps at the end of the next increment, over it (velocities, where there is none; or accelerations from rest). @return the largest gap.
+  double find_residual(const Analysis& analysis, System& system, double next, bool from_rest = false) const;
   NodePlace place_after(const Analysis& analysis, const System& system, const Member& member, std::size_t node, double next) const;
 
   const Step& step_;
   const NodalConstraints &translations_, &rotations_;
   GyroscopicNodes& gyroscopic_;
   RigidDynamics& bodies_;
+  GuideLaws guides_;
   std::vector<System> systems_;
   std::vector<bool> moves_, turns_;
   InverseInertia inverse_;

@@ -25,6 +25,7 @@ void ExplicitStep::fill_output() {
         analysis_.angular_acceleration[4 * node + c] = inverse_.rotary[node] * moment_[4 * node + c];
     std::fill(analysis_.work_ahead.begin(), analysis_.work_ahead.end(), NodalWork{});
     add_half_work(next_increment_, analysis_.work_ahead);
+    linkages_.add_guide_work(analysis_, ExplicitLinkages::Half::next, next_increment_, analysis_.work_ahead);
     constraints_.add_to_output(analysis_, instant());
     rotation_constraints_.add_to_output(analysis_, instant());
     linkages_.add_to_output(analysis_);

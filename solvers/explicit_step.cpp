@@ -352,6 +352,7 @@ void ExplicitStep::update_velocities() {
   const Instant now = instant();
   timers.measure(Phase::update, [&] {
     add_half_work(now.previous, state.nodal_work);
+    linkages_.add_guide_work(analysis_, ExplicitLinkages::Half::last, now.previous, state.nodal_work);
     constraints_.find_reactions(analysis_, now, force_.data());
     rotation_constraints_.find_velocities(analysis_, step_, now);
     rotation_constraints_.find_reactions(analysis_, now, moment_.data());
@@ -366,7 +367,10 @@ void ExplicitStep::update_velocities() {
     gyroscopic_.accelerate(analysis_, step_, now, moment_.data());
   });
   timers.measure(Phase::bodies, [&] { bodies_.accelerate(analysis_, now, moments_); });
-  timers.measure(Phase::update, [&] { add_half_work(now.next, state.nodal_work); });
+  timers.measure(Phase::update, [&] {
+    add_half_work(now.next, state.nodal_work);
+    linkages_.add_guide_work(analysis_, ExplicitLinkages::Half::next, now.next, state.nodal_work);
+  });
   state.time_increment = next_increment_;
 }
 

@@ -52,6 +52,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   add_pressure_stiffness(request);
   add_body_load_stiffness(request);
   add_contact(request.contact_sticks);
+  guides_.aim(analysis_, request.step_time, request.total_time, request.initial_loads);
   add_constraints();
   add_stabilization(request);
   if (dynamics_) dynamics_->add_damping(stiffness_, residual_);

@@ -63,6 +63,40 @@ void ImplicitSystem::add_slack(std::size_t local_constraint) {
   });
 }
 
+/// Motions become gaps of rows that hold; the forces of the others are what their laws say.
+void ImplicitSystem::follow_guides(std::int32_t constraint, std::size_t rows) {
+  for (std::size_t row = 0; row < rows; ++row) {
+    const auto place = analysis_.first_constraint_row[constraint] + static_cast<std::int32_t>(row);
+    auto& multiplier = analysis_.current.multiplier[place];
+    const double motion = guides_.motion(analysis_, constraint, static_cast<int>(row), gaps_[row]);
+    guides_.renew_friction(analysis_, place);
+    guides_.settle(place, motion, multiplier);
+    const auto& law = guides_.of(place);
+    holds_[row] = law.holds();
+    gaps_[row] = holds_[row] ? motion - law.held_at() : 0.0;
+    if (!holds_[row]) multiplier = law.force();
+  }
+}
+
+bool ImplicitSystem::is_guided(std::int32_t slot) const { return map_.is_multiplier(slot) && guides_.contains(map_.constraint_row(slot)); }
+
+void ImplicitSystem::add_guide_work() {
+  auto& state = analysis_.current;
+  for (const auto index : analysis_.local_constraints) {
+    const auto* guide = analysis_.constraints[index]->guide();
+    if (guide == nullptr) continue;
+    analysis_.find_places(index, places_);
+    gaps_.assign(guide->rows(), 0.0);
+    guide->gaps(places_, gaps_);
+    for (int row = 0; row < guide->rows(); ++row) {
+      const auto place = analysis_.first_constraint_row[index] + row;
+      const double moved = guides_.motion(analysis_, index, row, gaps_[row]) - state.guide_motion[place];
+      guides_.add_work(place, 0.5 * (start_.multiplier[place] + state.multiplier[place]), moved,
+                       state.nodal_work[analysis_.domain.local_node[guide->nodes().front()]]);
+    }
+  }
+}
+
 void ImplicitSystem::add_constraint(std::size_t local_constraint) {
   const auto index = analysis_.local_constraints[local_constraint];
   const auto& constraint = *analysis_.constraints[index];
@@ -77,6 +111,8 @@ void ImplicitSystem::add_constraint(std::size_t local_constraint) {
   curvature_.assign(coupled ? side * side : 144 * std::max<std::size_t>(nodes - 1, 1), 0.0);
   constraint.gaps(places_, gaps_);
   if (constraint.is_one_sided() && (multipliers[0] < 0.0 || (multipliers[0] == 0.0 && gaps_[0] <= 0.0))) return add_slack(local_constraint);
+  holds_.assign(rows, true);
+  if (constraint.guide() != nullptr) follow_guides(index, rows);
   constraint.gradient(places_, gradient_);
   constraint.add_curvature(places_, multipliers, curvature_);
 
@@ -109,8 +145,11 @@ void ImplicitSystem::add_constraint(std::size_t local_constraint) {
       const bool of_first = columns[a] < 6;
       if (of_first && last > 1 && !coupled) continue;
       for (std::size_t row = 0; row < rows; ++row)
-        block_[a * size + moving + row] = block_[(moving + row) * size + a] = gradient_[row * width + columns[a]];
+        if (holds_[row]) block_[a * size + moving + row] = block_[(moving + row) * size + a] = gradient_[row * width + columns[a]];
     }
+    // One negative eigenvalue, as a row that holds brings (eigenmodes.hpp counts them).
+    for (std::size_t row = 0; row < rows; ++row)
+      if (!holds_[row]) block_[(moving + row) * size + moving + row] = -1.0;
     stiffness_.add(motions_, block_);
   });
 }

@@ -101,6 +101,7 @@ void ImplicitDofMap::find_roles(std::span<const std::int32_t> prescribed) {
 void ImplicitDofMap::drop_dependent_rows() {
   if (constraint_row_.empty()) return;
   std::vector<SparseRow> rows(constraint_row_.size());
+  std::vector<bool> of_guide(constraint_row_.size(), false);
   std::vector<NodePlace> places;
   std::vector<double> gradient;
   std::size_t first = 0;
@@ -108,6 +109,11 @@ void ImplicitDofMap::drop_dependent_rows() {
   for (const auto index : analysis_.local_constraints) {
     const auto& constraint = *analysis_.constraints[index];
     const auto width = static_cast<std::size_t>(constraint.columns());
+    if (constraint.guide() != nullptr) {  // they do not always hold
+      std::fill_n(of_guide.begin() + static_cast<std::ptrdiff_t>(first), constraint.rows(), true);
+      first += constraint.rows();
+      continue;
+    }
     analysis_.find_places(index, places);
     gradient.resize(constraint.rows() * width);
     constraint.gradient(places, gradient);
@@ -131,7 +137,7 @@ void ImplicitDofMap::drop_dependent_rows() {
   }
   const auto dependent = dependent_rows(rows);
   for (std::size_t i = 0; i < dependent.size(); ++i)
-    if (dependent[i]) role_[layout_.first_multiplier() + i] = Role::absent;
+    if (dependent[i] && !of_guide[i]) role_[layout_.first_multiplier() + i] = Role::absent;
 }
 
 std::vector<std::int32_t> ImplicitDofMap::dependent_constraint_rows() const {

@@ -176,6 +176,7 @@ void ImplicitStep::add_work(const IncrementGoal& goal) {
           goal.damping / goal.time_increment * system_.stabilizing_mass(slot) * moved * moved;
   }
   applied_ = std::move(applied);
+  system_.add_guide_work();
 }
 
 void ImplicitStep::store_reactions() {

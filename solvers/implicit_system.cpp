@@ -16,6 +16,7 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
       map_(analysis, prescribed),
       exchange_(map_, analysis.communicator),
       stiffness_(map_, analysis.communicator),
+      guides_(analysis, step),
       residual_(map_.slots()),
       external_(map_.slots()) {
   for (auto slot = map_.first_multiplier(); slot < map_.slots(); ++slot)
@@ -24,6 +25,9 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
     dynamics_ = std::make_unique<AlphaMethod>(analysis, map_, dynamic->alpha);
   find_levers();
   find_stabilizing_masses();
+  guides_.begin_increment(analysis_);
+  guides_.start_motions(analysis_);
+  guides_.aim(analysis_, analysis_.current.step_time, analysis_.current.total_time, analysis_.current.step_time == 0.0);
   begin_increment();
   record_pattern();
 }
@@ -258,6 +262,8 @@ void ImplicitSystem::begin_increment() {
   trial_history_ = analysis_.current.element_history;
   start_contact_ = analysis_.current.contact;
   trial_contact_ = analysis_.current.contact;
+  guides_.begin_increment(analysis_);
+  guides_.guess(analysis_);
 }
 
 void ImplicitSystem::commit() {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "alpha_method.hpp"
+#include "guide_laws.hpp"
 #include "implicit_dof_map.hpp"
 #include "implicit_slot_exchange.hpp"
 #include "implicit_stiffness.hpp"
@@ -76,6 +77,10 @@ class ImplicitSystem {
   const Configuration& start_of_increment() const { return start_; }
   /// Makes the trial's histories those of the state.
   void commit();
+  /// Whether a slot is the multiplier of a guide.
+  bool is_guided(std::int32_t slot) const;
+  /// Work over the increment of what drives, loads and rubs connectors.
+  void add_guide_work();
   /// Greatest gap or penetration of a slave node that contact pushes. Collective.
   double greatest_misfit() const;
   /// Adds the present spring forces to the multipliers from which the increment's contact starts.
@@ -117,6 +122,7 @@ class ImplicitSystem {
   void add_constraints();
   void add_constraint(std::size_t local_constraint);
   void add_slack(std::size_t local_constraint);
+  void follow_guides(std::int32_t constraint, std::size_t rows);
   /// Calls add(nodes of the constraint) for the blocks of which its tangent consists, motions_ being theirs, always in the same order.
   template <class Add>
   void for_each_constraint_block(std::size_t local_constraint, Add add);
@@ -137,6 +143,7 @@ class ImplicitSystem {
   ImplicitDofMap map_;
   SlotExchange exchange_;
   ImplicitStiffness stiffness_;
+  GuideLaws guides_;
   Configuration start_;
   std::vector<std::vector<double>> trial_history_;
   std::vector<std::vector<ContactPoint>> start_contact_, trial_contact_;
@@ -154,6 +161,7 @@ class ImplicitSystem {
   std::vector<double> nodal_, nodal_moment_;                       // scratch
   std::vector<NodePlace> places_;                                  // scratch
   std::vector<double> gaps_, gradient_, curvature_;                // scratch
+  std::vector<bool> holds_;                                        // scratch: rows of a constraint
 };
 
 }  // namespace balocco

@@ -49,7 +49,7 @@ void StaticStep::find_start() {
   residual_ = follows_geometry() ? system_.residual() : linear_.residual();
   const double left = 1.0 - state.step_time / step_.duration();
   for (std::int32_t slot = 0; slot < system_.map().slots(); ++slot)
-    if (system_.map().role(slot) == ImplicitDofMap::Role::free) drive_.fading[slot] = residual_[slot] / left;
+    if (system_.map().role(slot) == ImplicitDofMap::Role::free && !system_.is_guided(slot)) drive_.fading[slot] = residual_[slot] / left;
   find_applied_forces(state.step_time, applied_);
   system_.begin_increment();
 }

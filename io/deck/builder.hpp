@@ -142,6 +142,11 @@ class Builder {
   std::set<std::string> poisoned_;
   std::set<std::string> told_undefined_;
   std::vector<bool> node_set_dirty_, element_set_dirty_;
+
+ public:
+  std::set<std::int32_t> ground_nodes;                   // of connectors to the ground: made for them, held in every step
+  Guide::Friction* connector_friction = nullptr;         // the last, until a *SURFACE INTERACTION: what *FRICTION speaks of
+  std::map<std::string, std::vector<std::array<double, 6>>> derived_components;  // of the last behavior: Guide::Friction::terms
 };
 
 /// One data line split into fields, with checked access. A field that cannot be read is told, and ok() turns false.

@@ -1,4 +1,5 @@
-// *CONNECTOR SECTION, and *CONNECTOR BEHAVIOR with *CONNECTOR ELASTICITY, DAMPING and CONSTITUTIVE REFERENCE.
+// *CONNECTOR SECTION, and *CONNECTOR BEHAVIOR with *CONNECTOR ELASTICITY, DAMPING and CONSTITUTIVE REFERENCE. What limits the motion of a
+// component is in connector_guides.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +8,7 @@
 
 #include "constraints/nodal_directions.hpp"
 #include "deck/builder.hpp"
+#include "deck/connector_guides.hpp"
 #include "deck/register.hpp"
 #include "deck/section_assignment.hpp"
 #include "deck/text.hpp"
@@ -109,6 +111,17 @@ bool read_orientations(Builder& builder, const Block& block, Connector& connecto
   return row.ok();
 }
 
+void check_friction(Builder& builder, const Block& block, const Connector& connector, const Guide::Friction& friction) {
+  if (friction.coefficient == 0.0)
+    builder.error(block, block.location, fmt::format("the *CONNECTOR FRICTION of behavior {} has no coefficient; let *FRICTION follow it", block.value("BEHAVIOR")));
+  for (const auto& arms : friction.terms)
+    for (int c = 0; c < 6; ++c)
+      if (arms[c] != 0.0 && (connector.available[c] || connector.pieces.empty()))
+        builder.error(block, block.location,
+                      fmt::format("the friction of behavior {} takes the force of component {}, which {} does not hold; name one that it holds",
+                                  block.value("BEHAVIOR"), c + 1, connector.type));
+}
+
 void take_behavior(Builder& builder, const Block& block, Connector& connector) {
   const auto behavior = builder.connector_behaviors.find(block.value("BEHAVIOR"));
   if (behavior == builder.connector_behaviors.end()) {
@@ -120,27 +133,19 @@ void take_behavior(Builder& builder, const Block& block, Connector& connector) {
   const auto& given = behavior->second;
   for (int c = 0; c < 6; ++c) {
     const auto& component = given.component[c];
-    if (!connector.available[c] && (component.elasticity || component.damping || component.reference))
+    if (!connector.available[c] && (component.elasticity || component.damping || component.reference || component.guide))
       builder.error(block, block.location,
                     fmt::format("the behavior {} speaks of component {}, which {} does not leave free; remove it, or use another type",
                                 block.value("BEHAVIOR"), c + 1, connector.type));
   }
+  for (int c = 0; c < 6; ++c)
+    if (const auto& guide = given.component[c].guide; guide && guide->friction) check_friction(builder, block, connector, *guide->friction);
   connector.component = given.component;
   connector.coupled_elasticity = given.coupled_elasticity;
   connector.coupled_damping = given.coupled_damping;
 }
 
-std::array<std::array<double, 3>, 3> axes_at(const Model& model, const Connector& connector, int end, std::int32_t node) {
-  const auto row = connector.orientation[end] >= 0 ? connector.orientation[end] : connector.orientation[0];
-  if (row < 0) return {{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
-  const auto axes = local_axes(model.orientations[row], model.nodes.coordinates[node]);
-  std::array<std::array<double, 3>, 3> result{};
-  for (int i = 0; i < 3; ++i)
-    for (int c = 0; c < 3; ++c) result[i][c] = axes(i, c);
-  return result;
-}
-
-/// What the connector of these elements holds becomes constraints.
+/// What the connector of these elements holds, stops and rubs becomes constraints.
 bool add_joints(Builder& builder, const Block& block, const Connector& connector, const std::vector<ElementRef>& elements) {
   for (const auto element : elements) {
     const auto& table = builder.model.elements[element.table];
@@ -155,12 +160,16 @@ bool add_joints(Builder& builder, const Block& block, const Connector& connector
                                 builder.model.element_name(element), connector.type));
       return false;
     }
-    if (connector.pieces.empty()) continue;
-    Joint joint{.nodes = {nodes[0], nodes[1]}, .pieces = connector.pieces};
-    joint.axes = axes_at(builder.model, connector, 0, nodes[0]);
-    joint.second_axes = axes_at(builder.model, connector, 1, nodes[1]);
     const auto location = table.location[element.row];
-    builder.model.constraints.push_back({std::move(joint), fmt::format("*CONNECTOR SECTION ({})", connector.type), location.file, location.line});
+    if (!connector.pieces.empty()) {
+      Joint joint{.nodes = {nodes[0], nodes[1]}, .pieces = connector.pieces};
+      joint.axes = axes_at(builder.model, connector, 0, nodes[0]);
+      joint.second_axes = axes_at(builder.model, connector, 1, nodes[1]);
+      builder.model.constraints.push_back(
+          {std::move(joint), fmt::format("*CONNECTOR SECTION ({})", connector.type), location.file, location.line, element});
+    }
+    for (int c = 0; c < 6; ++c)
+      if (const auto& given = connector.component[c].guide) guide_row(builder, connector, element, c) = *given;
   }
   return true;
 }
@@ -184,13 +193,7 @@ void read_section(Builder& builder, const Block& block) {
 
 void read_behavior(Builder& builder, const Block& block) {
   builder.connector_behavior = &builder.connector_behaviors[block.value("NAME")];
-}
-
-std::optional<int> component_of(Builder& builder, const Block& block) {
-  const auto component = block.integer("COMPONENT", 0);
-  if (component >= 1 && component <= 6) return static_cast<int>(component) - 1;
-  builder.error(block, block.location, fmt::format("COMPONENT={} is out of range; translations are 1 to 3, rotations 4 to 6", component));
-  return std::nullopt;
+  builder.derived_components.clear();
 }
 
 /// A slope, a table with NONLINEAR, or, where no COMPONENT is named, the upper triangle of a matrix.

@@ -21,6 +21,7 @@ Interaction& current(Builder& builder) {
 void read_interaction(Builder& builder, const Block& block) {
   const auto full = builder.define(builder.interactions, block.value("NAME"),
                                    static_cast<std::int32_t>(builder.model.interactions.size()), block);
+  builder.connector_friction = nullptr;
   for (const auto& line :
        block.lines) {  // Abaqus writes the out-of-plane thickness "1.," of two-dimensional models here
     Row row(builder, block, line);
@@ -44,6 +45,12 @@ void read_friction(Builder& builder, const Block& block) {
     row.error(fmt::format("coefficient {} must not be negative; correct it", coefficient));
   if (block.lines.size() > 1)
     builder.error(block, block.lines[1].location, "tables of friction are not supported; give one coefficient");
+  if (builder.connector_friction != nullptr) {
+    builder.connector_friction->coefficient = coefficient;
+    if (block.has("SLIP TOLERANCE") || block.has("ELASTIC SLIP"))
+      builder.error(block, block.location, "connectors stick exactly, without an elastic slip; remove the parameter");
+    return;
+  }
   current(builder).friction = coefficient;
   if (block.has("SLIP TOLERANCE")) {
     const double tolerance = block.real("SLIP TOLERANCE", 0.0);
@@ -245,7 +252,7 @@ const RegisterKeyword friction{{"FRICTION",
                                 Place::anywhere,
                                 {real("ELASTIC SLIP"), real("SLIP TOLERANCE")},
                                 read_friction,
-                                "SURFACE INTERACTION"}};
+                                "SURFACE INTERACTION or CONNECTOR BEHAVIOR"}};
 const RegisterKeyword behavior{{"SURFACE BEHAVIOR",
                                 Phase::definitions,
                                 Place::anywhere,

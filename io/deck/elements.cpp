@@ -124,7 +124,9 @@ class ElementReader {
       split(data.text, fields_);
       for (std::size_t field = 0; field < fields_.size(); ++field) {
         const auto number = parse_integer(fields_[field]);
-        if (!number) {
+        if (!first && is_ground(fields_[field])) {
+          nodes_.push_back(ground);
+        } else if (!number) {
           if (good) tell_bad_field(data, field);
           good = false;
         } else if (first) {
@@ -140,6 +142,25 @@ class ElementReader {
     return line;
   }
 
+  /// A connector's node that is left empty, or 0.
+  bool is_ground(std::string_view field) const {
+    return type_.section == Section::Kind::connector && static_cast<int>(nodes_.size()) < type_.nodes && (field.empty() || field == "0");
+  }
+
+  /// The ground is where the other node is.
+  bool put_on_ground(std::int64_t id, Location location) {
+    if (type_.section == Section::Kind::connector && nodes_.size() == 1) nodes_.push_back(ground);
+    if (std::ranges::count(nodes_, ground) == 0) return true;
+    const auto other = std::ranges::find_if(nodes_, [](std::int32_t node) { return node != ground; });
+    if (other == nodes_.end()) {
+      builder_.error(block_, location, fmt::format("element {} joins the ground to itself; name one of its nodes", id));
+      return false;
+    }
+    const Point place = builder_.model.nodes.coordinates[*other];
+    std::ranges::replace(nodes_, ground, add_ground_node(builder_, location, place));
+    return true;
+  }
+
   void add_node_id(std::int64_t id, Location location, bool& good) {
     const auto row = builder_.require_node(id, block_, location);
     if (row) nodes_.push_back(*row);
@@ -153,6 +174,7 @@ class ElementReader {
   }
 
   void finish(std::int64_t id, Location location) {
+    if (!put_on_ground(id, location)) return;
     if (static_cast<int>(nodes_.size()) != type_.nodes) {
       builder_.error(block_, location,
                      fmt::format("element {} has {} nodes, but {} needs {}; correct the line or the type (a line "
@@ -164,6 +186,7 @@ class ElementReader {
     if (added && set_ >= 0) builder_.add_to_element_set(set_, *added);
   }
 
+  static constexpr std::int32_t ground = -1;  // in nodes_
   Builder& builder_;
   const Block& block_;
   const ElementType& type_;

@@ -98,7 +98,9 @@ void renew_boundary(Builder& builder, const Block& block) {
   builder.draft.boundary_of.clear();
   auto& boundary = current(builder).boundary;
   const bool first_step = builder.model.steps.size() == 1;
-  std::erase_if(boundary, [&](const BoundaryCondition& c) { return c.propagated || first_step; });
+  std::erase_if(boundary, [&](const BoundaryCondition& c) {
+    return (c.propagated || first_step) && !builder.ground_nodes.contains(c.node);
+  });
   for (std::size_t row = 0; row < boundary.size(); ++row) {
     builder.draft.boundary_of[std::int64_t{boundary[row].node} * 6 + boundary[row].dof] = row;
   }

@@ -237,6 +237,19 @@ std::optional<std::int32_t> add_node(Builder& builder, const Block& block, Locat
   return place->second;
 }
 
+std::int32_t add_ground_node(Builder& builder, Location location, const Point& point) {
+  auto& nodes = builder.model.nodes;
+  const auto row = nodes.size();
+  const auto id = std::ranges::max(nodes.id) + 1;
+  nodes.row_of_id.emplace(id, row);
+  nodes.id.push_back(id);
+  if (!builder.model.instances.empty()) nodes.instance.push_back(-1);
+  nodes.coordinates.push_back(point);
+  nodes.location.push_back(location);
+  builder.ground_nodes.insert(row);
+  return row;
+}
+
 std::int64_t element_offset(Builder& builder) {
   if (!builder.scope->element_offset) {
     std::int64_t offset = 0;

@@ -12,6 +12,9 @@ namespace balocco::deck {
 std::optional<std::int32_t> add_node(Builder& builder, const Block& block, Location location, std::int64_t id,
                                      const Point& point);
 
+/// Adds a node of no scope, with a free id, that is held for ever.
+std::int32_t add_ground_node(Builder& builder, Location location, const Point& point);
+
 /// What is added to element ids of the current scope.
 std::int64_t element_offset(Builder& builder);
 

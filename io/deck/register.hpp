@@ -44,7 +44,7 @@ struct KeywordRule {
   Place place = Place::model;
   std::vector<ParameterRule> parameters = {};
   void (*handler)(Builder&, const Block&) = nullptr;  // null: accepted, and has nothing to say to a Model
-  std::string parent = "";                            // an option that only makes sense under this keyword
+  std::string parent = "";                            // an option that only makes sense under this keyword, or this " or " that one
   std::string warning = "";                           // told where the keyword is used
   bool any_parameter = false;                         // old output requests: nothing of them is looked at
 };

@@ -143,6 +143,21 @@ void Scheduler::begin_instance(const Block& block) {
   for (Block* inside : part->second) add(*inside);
 }
 
+namespace {
+
+/// Whether a squeezed keyword is one of `parents`, "A or B".
+bool may_follow(std::string_view parents, std::string_view keyword) {
+  constexpr std::string_view either = " or ";
+  for (std::size_t begin = 0;;) {
+    const auto end = parents.find(either, begin);
+    if (squeeze(parents.substr(begin, end - begin)) == keyword) return true;
+    if (end == std::string_view::npos) return false;
+    begin = end + either.size();
+  }
+}
+
+}  // namespace
+
 void Scheduler::unknown(const Block& block) {
   const std::string guess = nearest(block.keyword, keywords());
   const std::string cure = guess.empty() ? fmt::format("remove it or run with --ignore \"{}\"", block.written)
@@ -190,7 +205,7 @@ bool Scheduler::accepted(Block& block, const KeywordRule& rule) {
     step_refused_ = step_refused_ || block.keyword == "STEP";
     return false;
   }
-  if (!rule.parent.empty() && squeeze(rule.parent) != parent_) {
+  if (!rule.parent.empty() && !may_follow(rule.parent, parent_)) {
     if (parent_ != "?") {
       builder_.error(block, block.location, fmt::format("it must follow *{}; move it there", rule.parent));
     }

@@ -7,6 +7,7 @@
 #include "deck/register.hpp"
 #include "deck/step_draft.hpp"
 #include "deck/text.hpp"
+#include "elements/turning_nodes.hpp"
 
 namespace balocco::deck {
 
@@ -24,6 +25,13 @@ double reached(const Model& model, const Load& load, double step_time, double to
   return load.magnitude * amplitude.value(amplitude.total_time ? total_time : step_time);
 }
 
+void hold_ground_nodes(const Builder& builder, Step& step) {
+  if (builder.ground_nodes.empty()) return;
+  const auto turning = turning_nodes(builder.model);
+  for (const auto node : builder.ground_nodes)
+    for (int dof = 0; dof < (turning[node] ? 6 : 3); ++dof) step.boundary.push_back({.node = node, .dof = dof});
+}
+
 /// What a step takes over from the one before.
 void inherit(Builder& builder, Step& step) {
   const Model& model = builder.model;
@@ -31,6 +39,7 @@ void inherit(Builder& builder, Step& step) {
   const auto general = model.general_step_before(row);
   if (general < 0) {
     step.boundary = builder.initial_boundary;
+    hold_ground_nodes(builder, step);
     step.checkpoint_frequency = builder.checkpoint_frequency;
     step.checkpoint_number_interval = builder.checkpoint_number_interval;
     for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair) {
@@ -46,6 +55,9 @@ void inherit(Builder& builder, Step& step) {
   step.concentrated_loads = before.concentrated_loads;
   step.pressures = before.pressures;
   step.body_loads = before.body_loads;
+  step.connector_motions = before.connector_motions;
+  for (auto& motion : step.connector_motions) motion.course.propagated = true;
+  step.connector_loads = before.connector_loads;
   step.active_contact_pairs = before.active_contact_pairs;
   step.removed_elements = before.removed_elements;
   step.field_outputs = before.field_outputs;
@@ -62,6 +74,7 @@ void inherit(Builder& builder, Step& step) {
   settle(step.concentrated_loads);
   settle(step.pressures);
   settle(step.body_loads);
+  settle(step.connector_loads);
 }
 
 void index_nodes(Builder& builder) {

@@ -3,6 +3,7 @@
 #include "constraints/alignment.hpp"
 #include "constraints/distributing_coupling.hpp"
 #include "constraints/greatest_distance.hpp"
+#include "constraints/guide.hpp"
 #include "constraints/joint.hpp"
 #include "constraints/linear_equation.hpp"
 #include "constraints/tie.hpp"
@@ -30,6 +31,7 @@ struct Make {
     return std::make_unique<GreatestDistanceConstraint>(model, kind);
   }
   std::unique_ptr<Constraint> operator()(const Tie& kind) const { return std::make_unique<TieConstraint>(model, kind, model_size); }
+  std::unique_ptr<Constraint> operator()(const Guide& kind) const { return std::make_unique<GuideConstraint>(model, kind, model_size); }
 };
 
 }  // namespace

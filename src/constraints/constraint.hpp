@@ -22,6 +22,8 @@ struct NodePlace {
   Vector3<double> turn{};
 };
 
+class GuideConstraint;
+
 /// Rows are lengths, or lengths times angles. Columns of a gradient: 6 for each node, displacement and spin (global axes; a spin s
 /// turns R into exp(s) R).
 class Constraint {
@@ -40,6 +42,8 @@ class Constraint {
   virtual bool is_one_sided() const { return false; }
   /// Whether curvature couples any two nodes: add_curvature() then fills columns() x columns() values.
   virtual bool couples_all() const { return false; }
+  /// Where g are relative motions, of which laws of the step say what holds; else all of them vanish.
+  virtual const GuideConstraint* guide() const { return nullptr; }
 
   /// g, rows() values.
   virtual void gaps(std::span<const NodePlace> places, std::span<double> g) const = 0;

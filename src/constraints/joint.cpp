@@ -149,6 +149,27 @@ std::array<JointConstraint::Frame<double>, 2> JointConstraint::frames(std::span<
   return result;
 }
 
+/// Takes multipliers in turn. Those of rotations are moments / lever where all is in line.
+struct JointConstraint::Forces {
+  double lever;
+  const double* multiplier;
+  std::array<double, 6>& force;
+
+  void along(int i) { force[i] += *multiplier++; }
+  void distance() { force[0] += *multiplier++; }
+  void sine(int i) { force[3 + i] += lever * *multiplier++; }
+  void right_angle(int i, int j) {  // a turn of the second frame about e_i x e_j, as it stands, closes it
+    const bool positive = (i + 1) % 3 == j;
+    force[6 - i - j] += (positive ? -lever : lever) * *multiplier++;
+  }
+};
+
+std::array<double, 6> JointConstraint::component_forces(std::span<const double> multipliers) const {
+  std::array<double, 6> force{};
+  list_rows(Forces{lever_, multipliers.data(), force});
+  return force;
+}
+
 void JointConstraint::gaps(std::span<const NodePlace> places, std::span<double> g) const {
   list_rows(Gaps<double>{*this, frames(places), g.data()});
 }

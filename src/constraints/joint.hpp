@@ -17,6 +17,9 @@ class JointConstraint : public Constraint {
   void add_curvature(std::span<const NodePlace> places, std::span<const double> multipliers,
                      std::span<double> pairs) const override;
 
+  /// Forces and moments of the components that it holds, in the first frame, as of a spring that is pulled; zero elsewhere.
+  std::array<double, 6> component_forces(std::span<const double> multipliers) const;
+
  private:
   template <class T>
   struct Frame {
@@ -29,6 +32,7 @@ class JointConstraint : public Constraint {
   template <class T>
   struct Gaps;
   struct Gradient;
+  struct Forces;
   template <class Rows>
   void list_rows(Rows&& rows) const;
 

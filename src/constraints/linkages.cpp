@@ -39,6 +39,7 @@ struct NodesOf {
   std::vector<std::int32_t> operator()(const Alignment& kind) const { return kind.nodes; }
   std::vector<std::int32_t> operator()(const GreatestDistance& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
   std::vector<std::int32_t> operator()(const Joint& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
+  std::vector<std::int32_t> operator()(const Guide& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
   std::vector<std::int32_t> operator()(const Tie& kind) const {
     std::vector<std::int32_t> nodes = kind.others;
     nodes.push_back(kind.node);

@@ -18,14 +18,10 @@ struct ConnectorComponent {
   };
   std::optional<Curve> elasticity, damping;
   std::optional<double> reference;             // *CONNECTOR CONSTITUTIVE REFERENCE: the length or angle without force; none: as at the start
+  std::optional<Guide::Row> guide;             // *CONNECTOR STOP, LOCK, FRICTION
 };
 
-struct Connector {
-  /// How relative translations are measured: coordinates of the second node in the frame of the first, less those at the start, or
-  /// the change of the distance.
-  enum class Translation { none, cartesian, axial } translation = Translation::none;
-  /// Cardan (1-2-3) or Euler (3-1-3) angles, or the rotation vector, from the frame of the first node to that of the second.
-  enum class Rotation { none, cardan, euler, vector } rotation = Rotation::none;
+struct Connector : RelativeMotionKind {
   std::string type;                            // "HINGE", "BUSHING" ...
   std::vector<Joint::Piece> pieces;            // what it holds
   std::array<bool, 6> available{};             // components of relative motion that it leaves

@@ -3,9 +3,13 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "model/element_ref.hpp"
 
 namespace balocco {
 
@@ -37,6 +41,39 @@ struct Joint {
   std::array<std::int32_t, 2> nodes{-1, -1};
   std::vector<Piece> pieces;
   std::array<std::array<double, 3>, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, second_axes = axes;
+};
+
+/// How connectors measure the motion of a second frame relative to a first one.
+struct RelativeMotionKind {
+  /// Coordinates of the second node in the frame of the first, less those at the start; or the change of the distance.
+  enum class Translation { none, cartesian, axial } translation = Translation::none;
+  /// Cardan (1-2-3) or Euler (3-1-3) angles, or the rotation vector, from the frame of the first node to that of the second.
+  enum class Rotation { none, cardan, euler, vector } rotation = Rotation::none;
+};
+
+/// Components of relative motion of a connector that something stops, locks, rubs, drives or loads (*CONNECTOR STOP, LOCK, FRICTION,
+/// MOTION, LOAD): a row each. What holds in a step is a law between the row's motion and its force (solvers/guide_laws.hpp).
+struct Guide {
+  /// Coulomb: a force or moment up to coefficient * (internal + sum over `terms` of |arm_c * force_c| of the held components).
+  struct Friction {
+    double coefficient = 0.0, internal = 0.0;
+    std::vector<std::array<double, 6>> terms;  // arms by component, lengths where they turn forces into moments
+  };
+  /// Bounds of a position: a coordinate, a distance or an angle (radians).
+  using Range = std::array<double, 2>;
+  static constexpr Range everywhere{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  struct Row {
+    int component = 0;  // 0 to 5
+    Range stop = everywhere;
+    Range lock = everywhere;  // beyond it the connector locks
+    bool locks_all = true;    // all rows, or this one alone
+    std::optional<Friction> friction;
+  };
+  std::array<std::int32_t, 2> nodes{-1, -1};
+  std::array<std::array<double, 3>, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, second_axes = axes;  // as of Joint
+  RelativeMotionKind kind;
+  std::vector<Row> rows;
+  std::int32_t joint = -1;  // row of Model::constraints: what the connector holds
 };
 
 /// *COUPLING with *DISTRIBUTING: the reference node moves (`freedoms` 0-2) with the weighted mean of the nodes and turns (3-5)
@@ -71,12 +108,13 @@ struct GreatestDistance {
   double distance = 0.0;
 };
 
-using ConstraintKind = std::variant<LinearEquation, Joint, DistributingCoupling, Tie, Alignment, GreatestDistance>;
+using ConstraintKind = std::variant<LinearEquation, Joint, DistributingCoupling, Tie, Alignment, GreatestDistance, Guide>;
 
 struct ConstraintDefinition {
   ConstraintKind kind;
   std::string keyword;  // "*EQUATION", for messages
   std::int32_t file = -1, line = 0;
+  ElementRef element{};  // the connector that it belongs to
 };
 
 }  // namespace balocco

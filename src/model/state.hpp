@@ -48,7 +48,8 @@ struct AlphaMemory {
 /// Work done on a node, by kind: up to now, explicit: up to the middle of the increment to come. Copies of a shared node hold the same bits; sums are taken over owners.
 struct NodalWork {
   double external = 0.0;  // loads, prescribed motion and reactions
-  double damping = 0.0;   // mass-proportional Rayleigh damping
+  double damping = 0.0;   // mass-proportional Rayleigh damping; hits of stops of connectors
+  double friction = 0.0;  // in connectors
 };
 
 struct State {
@@ -76,7 +77,9 @@ struct State {
   std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
   std::vector<RigidBodyState> rigid_bodies;
   // Of constraints, kept by the ranks that hold their nodes:
-  std::vector<double> multiplier;          // per row of the model's constraints: force along its gradient
+  std::vector<double> multiplier;          // per row of the model's constraints: force against its gradient, as of a spring that is pulled
+  std::vector<double> guide_motion;        // per row: of guides the relative motion, angles counted on beyond half a turn
+  std::vector<double> guide_locked;        // per row: 1 where a *CONNECTOR LOCK holds it
   std::vector<std::int32_t> implied_rows;  // explicit: rows that others implied when the step began, which are not solved for
   // Implicit dynamics, empty unless such a step has gone on: of nodes; of nodes that turn; of rigid bodies' rotations.
   std::vector<AlphaMemory> alpha_memory, alpha_memory_of_spins, alpha_memory_of_bodies;

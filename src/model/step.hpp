@@ -36,6 +36,23 @@ struct ConcentratedLoad {
   std::int32_t file = -1, line = 0;
 };
 
+/// *CONNECTOR MOTION: the relative motion of a row of a guide (model/constraint.hpp).
+struct ConnectorMotion {
+  std::int32_t guide = -1;   // row of Model::constraints
+  int row = 0;               // of it
+  BoundaryCondition course;  // its node and dof say nothing
+};
+
+/// *CONNECTOR LOAD: a force (or moment) along a component, which turns with the connector; positive where it drives the motion on.
+struct ConnectorLoad {
+  std::int32_t guide = -1;
+  int row = 0;
+  double magnitude = 0.0;
+  double previous = 0.0;
+  std::int32_t amplitude = -1;
+  std::int32_t file = -1, line = 0;
+};
+
 /// Pressure on element faces, positive towards the face; it follows the deforming surface.
 struct PressureLoad {
   std::int32_t surface = -1;    // row of Model::surfaces (element faces)
@@ -240,6 +257,8 @@ struct Step {
   std::vector<ConcentratedLoad> concentrated_loads;
   std::vector<PressureLoad> pressures;
   std::vector<BodyLoad> body_loads;
+  std::vector<ConnectorMotion> connector_motions;
+  std::vector<ConnectorLoad> connector_loads;
   std::vector<std::int32_t> active_contact_pairs;  // rows of Model::contact_pairs, after *MODEL CHANGE
   std::vector<ElementRef> removed_elements;        // sorted: out of the model in this step, after *MODEL CHANGE
   std::vector<RigidAttachment> attachments;

@@ -5,6 +5,12 @@ foreach(case masses_on_links falling_chain four_bar universal_joint coupled_tip 
                    ${CMAKE_CURRENT_BINARY_DIR}/constraint_${case})
   set_tests_properties(constraint_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
 endforeach()
+foreach(case strut struck_pendulum braked_rotor rubbing_slider slider_crank on_the_ground driven_hinge)
+  add_test(NAME connector_${case}
+           COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/connector_cases.py ${case} $<TARGET_FILE:balocco>
+                   ${CMAKE_CURRENT_BINARY_DIR}/connector_${case})
+  set_tests_properties(connector_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
+endforeach()
 foreach(case driving_from_an_equilibrium importing_parts)
   add_test(NAME import_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/import_cases.py ${case} $<TARGET_FILE:balocco>

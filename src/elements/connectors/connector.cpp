@@ -2,9 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
-#include "constraints/motion_seeds.hpp"
 #include "constraints/nodal_directions.hpp"
 #include "elements/element_type.hpp"
 #include "math/exact_sum.hpp"
@@ -16,36 +14,6 @@ namespace {
 
 // Rows of an element's history.
 constexpr int motion_row = 0, force_row = 6, elastic_row = 12, dissipation_row = 18;
-
-double arc_tangent(double y, double x) { return std::atan2(y, x); }
-
-template <int N, class Real>
-Dual<N, Real> arc_tangent(const Dual<N, Real>& y, const Dual<N, Real>& x) {
-  const Real square = x.value * x.value + y.value * y.value;
-  const Real by_y = x.value / square, by_x = -y.value / square;
-  Dual<N, Real> result(arc_tangent(y.value, x.value));
-  for (int i = 0; i < N; ++i) result.derivative[i] = by_y * y.derivative[i] + by_x * x.derivative[i];
-  return result;
-}
-
-double plain(double x) { return x; }
-template <int N, class Real>
-double plain(const Dual<N, Real>& x) {
-  return plain(x.value);
-}
-
-/// The rotation vector of a matrix; near the identity angle / sine by its series, whose derivatives are finite there.
-template <class T>
-Vector3<T> rotation_vector_of(const Matrix3<T>& m) {
-  const Vector3<T> axial{{0.5 * (m(2, 1) - m(1, 2)), 0.5 * (m(0, 2) - m(2, 0)), 0.5 * (m(1, 0) - m(0, 1))}};
-  const T square = dot(axial, axial), cosine = 0.5 * (m(0, 0) + m(1, 1) + m(2, 2) - 1.0);
-  if (plain(square) < 1e-3 && plain(cosine) > 0.0) {
-    const T factor = 1.0 + square * (1.0 / 6.0 + square * (3.0 / 40.0 + square * (15.0 / 336.0 + square * (105.0 / 3456.0))));
-    return factor * axial;
-  }
-  const T sine = square_root(square);
-  return (arc_tangent(sine, cosine) / sine) * axial;
-}
 
 }  // namespace
 
@@ -64,91 +32,39 @@ ConnectorGroup::ConnectorGroup(const GroupInput& input)
   const ElementTable& table = input.model.elements[table_];
   for (std::int32_t element = 0; element < size_; ++element) {
     const auto* node = &table.connectivity[2 * static_cast<std::size_t>(rows_[element])];
-    auto& reference = references_.emplace_back();
-    const auto at = [&](int end) { return Vector3<double>{input.model.nodes.coordinates[node[end]]}; };
+    RelativeMotion::Axes axes;
     for (int end = 0; end < 2; ++end) {
       const auto orientation = connector_.orientation[end] >= 0 ? connector_.orientation[end] : connector_.orientation[0];
-      reference.axes[end] = orientation >= 0 ? local_axes(input.model.orientations[orientation], input.model.nodes.coordinates[node[end]])
-                                             : Matrix3<double>::identity();
+      axes[end] = orientation >= 0 ? local_axes(input.model.orientations[orientation], input.model.nodes.coordinates[node[end]])
+                                   : Matrix3<double>::identity();
     }
-    const auto arm = at(1) - at(0);
-    reference.offset = reference.axes[0] * arm;
-    reference.length = std::sqrt(dot(arm, arm));
-    measure<double>(reference, {at(0), at(1)}, reference.axes, reference.at_start);
+    const auto at = [&](int end) { return Vector3<double>{input.model.nodes.coordinates[node[end]]}; };
+    auto& reference = references_.emplace_back(RelativeMotion(connector_, axes, at(1) - at(0)));
     for (int c = 0; c < 6; ++c)
-      if (const auto& unloaded = connector_.component[c].reference) {
-        // The deck gives it as a coordinate, a distance or an angle.
-        const bool axial = connector_.translation == Connector::Translation::axial;
-        const double here = c >= 3 ? reference.at_start[c] : axial ? reference.length : reference.offset[c];
-        reference.stretched[c] = here - *unloaded;
-      }
+      if (const auto& unloaded = connector_.component[c].reference)
+        reference.stretched[c] = reference.relative.position_at_start(c) - *unloaded;
   }
 }
 
-ConnectorGroup::Place ConnectorGroup::place(std::int32_t element, const NodalMotion& motion) const {
-  Place result;
+std::array<NodePlace, 2> ConnectorGroup::places(std::int32_t element, const NodalMotion& motion) const {
+  std::array<NodePlace, 2> result;
   for (int end = 0; end < 2; ++end) {
     const auto node = std::ptrdiff_t{nodes(element)[end]};
     const double* const x = motion.position + 4 * node;
-    result.position[end] = {{x[0], x[1], x[2]}};
-    result.rotation[end] = Matrix3<double>::identity();
+    result[end].position = {{x[0], x[1], x[2]}};
     if (!turns()) continue;
     const double* const q = motion.orientation + 4 * node;
-    result.rotation[end] = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
+    result[end].rotation = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
   }
   return result;
 }
 
-/// Translations and angles of the second frame in the first, whose axes are rows.
-template <class T>
-void ConnectorGroup::measure(const Reference& reference, const std::array<Vector3<T>, 2>& position, const std::array<Matrix3<T>, 2>& axes,
-                             std::array<T, 6>& motion) const {
-  const Vector3<T> arm = position[1] - position[0];
-  if (connector_.translation == Connector::Translation::axial) motion[0] = square_root(dot(arm, arm)) - reference.length;
-  if (connector_.translation == Connector::Translation::cartesian)
-    for (int c = 0; c < 3; ++c) motion[c] = dot(row_of(axes[0], c), arm) - reference.offset[c];
-  if (connector_.rotation == Connector::Rotation::none) return;
-  const Matrix3<T> m = axes[0] * transpose(axes[1]);  // e_i . f_j
-  if (connector_.rotation == Connector::Rotation::cardan) {
-    motion[3] = arc_tangent(-m(1, 2), m(2, 2));
-    motion[4] = arc_tangent(m(0, 2), square_root(m(1, 2) * m(1, 2) + m(2, 2) * m(2, 2)));
-    motion[5] = arc_tangent(-m(0, 1), m(0, 0));
-  } else if (connector_.rotation == Connector::Rotation::euler) {
-    motion[3] = arc_tangent(m(0, 2), -m(1, 2));
-    motion[4] = arc_tangent(square_root(m(0, 2) * m(0, 2) + m(1, 2) * m(1, 2)), m(2, 2));
-    motion[5] = arc_tangent(m(2, 0), m(2, 1));
-  } else {
-    const auto vector = rotation_vector_of(m);
-    for (int c = 0; c < 3; ++c) motion[3 + c] = vector[c];
-  }
-}
-
-template <class T>
-std::array<T, 6> ConnectorGroup::measured(std::int32_t element, const NodalMotion& motion, const std::array<MotionSeed<T>, 2>& seeds) const {
-  const auto here = place(element, motion);
-  const auto& reference = references_[element];
-  std::array<Vector3<T>, 2> position;
-  std::array<Matrix3<T>, 2> axes;
-  for (int end = 0; end < 2; ++end) {
-    for (int c = 0; c < 3; ++c) position[end][c] = here.position[end][c] + seeds[end].displacement[c];
-    axes[end] = constant<T>(reference.axes[end] * transpose(here.rotation[end])) * transpose(seeds[end].turn);
-  }
-  std::array<T, 6> result{};
-  measure(reference, position, axes, result);
-  return result;
-}
-
-/// Angles go on beyond half a turn: of those that differ by whole turns the one nearest to the last.
 ConnectorGroup::Kinematics ConnectorGroup::kinematics(std::int32_t element, const NodalMotion& motion, std::span<const double> old_motion) const {
-  const auto& reference = references_[element];
-  const auto measured = this->measured<Slope>(element, motion, {slope_seed(0), slope_seed(1)});
+  const auto& relative = references_[element].relative;
+  const auto measured = relative.at<Slope>(places(element, motion), {slope_seed(0), slope_seed(1)});
   Kinematics result;
   for (int c = 0; c < 6; ++c) {
-    result.motion[c] = measured[c].value - reference.at_start[c];
-    if (c >= 3 && connector_.rotation != Connector::Rotation::none) {
-      constexpr double turn = 2.0 * std::numbers::pi;
-      result.motion[c] += turn * std::round((old_motion[c] - result.motion[c]) / turn);
-    }
+    result.motion[c] = relative.nearest(c, measured[c].value, old_motion[c]);
     result.gradient[c] = measured[c].derivative;
   }
   return result;
@@ -156,7 +72,7 @@ ConnectorGroup::Kinematics ConnectorGroup::kinematics(std::int32_t element, cons
 
 /// stiffness += force . second derivatives.
 void ConnectorGroup::add_curvature(std::int32_t element, const NodalMotion& motion, const Six& force, std::span<double> stiffness) const {
-  const auto measured = this->measured<Curvature>(element, motion, {curvature_seed(0), curvature_seed(1)});
+  const auto measured = references_[element].relative.at<Curvature>(places(element, motion), {curvature_seed(0), curvature_seed(1)});
   const int size = 2 * freedoms_per_node_;
   const auto column = [&](int k) { return 6 * (k / freedoms_per_node_) + k % freedoms_per_node_; };
   for (int c = 0; c < 6; ++c)
@@ -326,7 +242,7 @@ Restraint ConnectorGroup::bound(std::int32_t element, int first) const {
     const auto& viscous = damping_[c];
     if (elastic) {
       const bool axial = c < 3 && connector_.translation == Connector::Translation::axial;
-      stiffest = std::max({stiffest, elastic->steepest(), axial ? elastic->tautness(references_[element].length) : 0.0});
+      stiffest = std::max({stiffest, elastic->steepest(), axial ? elastic->tautness(references_[element].relative.length()) : 0.0});
       result.force = std::max(result.force, elastic->largest_force());
     }
     if (viscous) {
@@ -346,7 +262,7 @@ Restraint ConnectorGroup::rotary_restraint(std::int32_t element) const {
   if (!turns()) return {};
   auto result = bound(element, 3);
   const auto pulled = bound(element, 0);
-  const double arm = connector_.translation == Connector::Translation::cartesian ? references_[element].length : 0.0;
+  const double arm = connector_.translation == Connector::Translation::cartesian ? references_[element].relative.length() : 0.0;
   result.stiffness += pulled.stiffness * arm * arm;
   result.viscosity += pulled.viscosity * arm * arm;
   result.force += pulled.force * arm;
@@ -354,12 +270,16 @@ Restraint ConnectorGroup::rotary_restraint(std::int32_t element) const {
 }
 
 int ConnectorGroup::point_components(std::string_view variable) const {
-  return variable == "CTF" || variable == "CEF" || variable == "CVF" || variable == "CU" ? 6 : 0;
+  static constexpr std::array<std::string_view, 8> variables{"CTF", "CEF", "CVF", "CRF", "CSF", "CCF", "CU", "CP"};
+  return std::ranges::count(variables, variable) > 0 ? 6 : 0;
 }
 
-void ConnectorGroup::point_output(std::string_view variable, std::int32_t, int, const NodalMotion&, std::span<const double> history,
+/// Forces of what holds, rubs and loads a connector are multipliers of constraints, which Analysis adds.
+void ConnectorGroup::point_output(std::string_view variable, std::int32_t element, int, const NodalMotion&, std::span<const double> history,
                                   std::span<double> values) const {
   for (int c = 0; c < 6; ++c) {
+    values[c] = 0.0;
+    if (variable == "CP") values[c] = history[motion_row + c] + references_[element].relative.position_at_start(c);
     if (variable == "CU") values[c] = history[motion_row + c];
     if (variable == "CTF") values[c] = history[force_row + c];
     if (variable == "CEF") values[c] = history[elastic_row + c];

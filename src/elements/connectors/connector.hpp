@@ -6,7 +6,7 @@
 
 #include <optional>
 
-#include "constraints/motion_seeds.hpp"
+#include "constraints/relative_motion.hpp"
 #include "elements/element_group.hpp"
 #include "elements/springs/force_curve.hpp"
 
@@ -37,11 +37,8 @@ class ConnectorGroup : public ElementGroup {
  private:
   using Six = std::array<double, 6>;
   struct Reference {
-    std::array<Matrix3<double>, 2> axes;  // of the nodes' frames at the start, rows
-    Vector3<double> offset{};             // of the second node in the first frame
-    double length = 0.0;
-    Six at_start{};                       // what is measured there: relative motions count from it
-    Six stretched{};                      // relative motion at the start from where there is no force
+    RelativeMotion relative;
+    Six stretched{};  // relative motion at the start from where there is no force
   };
   /// Relative motions and their gradients by the 12 motions of the nodes.
   struct Kinematics {
@@ -57,17 +54,8 @@ class ConnectorGroup : public ElementGroup {
     Six velocity{};
     double slope = 0.0;  // by the relative motions; 0: no rate is known
   };
-  struct Place {
-    std::array<Vector3<double>, 2> position;
-    std::array<Matrix3<double>, 2> rotation;
-  };
 
-  Place place(std::int32_t element, const NodalMotion& motion) const;
-  template <class T>
-  void measure(const Reference& reference, const std::array<Vector3<T>, 2>& position, const std::array<Matrix3<T>, 2>& axes,
-               std::array<T, 6>& motion) const;
-  template <class T>
-  std::array<T, 6> measured(std::int32_t element, const NodalMotion& motion, const std::array<MotionSeed<T>, 2>& seeds) const;
+  std::array<NodePlace, 2> places(std::int32_t element, const NodalMotion& motion) const;
   Kinematics kinematics(std::int32_t element, const NodalMotion& motion, std::span<const double> old_motion) const;
   void add_curvature(std::int32_t element, const NodalMotion& motion, const Six& force, std::span<double> stiffness) const;
   Six stretch(std::int32_t element, const Six& motion) const;

@@ -1,0 +1,207 @@
+#!/usr/bin/env python3
+"""Connectors that are stopped, locked, driven, loaded and rubbed, in both procedures: connector_cases.py CASE BALOCCO FOLDER."""
+import math
+
+import numpy as np
+
+from constraint_cases import G, GRAVITY, deck_of_rods, explicit_step, history, integrate, rods
+from explicit_cases import check, check_energy, run_case
+
+
+def connector_output(elements="JOINT", interval=None):
+    when = f"TIME INTERVAL={interval}" if interval else "FREQUENCY=1"
+    return f"*OUTPUT, HISTORY, {when}\n*ELEMENT OUTPUT, ELSET={elements}\nCTF, CRF, CEF, CSF, CCF, CU, CP\n"
+
+
+def two_nodes(connector, behavior="", at=0.3, inertia="0.02, 0.02, 0.02"):
+    """A body at (at, 0, 0) that a connector joins to the ground, its axis along x."""
+    return f"""*NODE
+1, 0., 0., 0.
+2, {at!r}, 0., 0.
+*NSET, NSET=BODY
+2
+*ELEMENT, TYPE=MASS, ELSET=M
+1, 2
+*MASS, ELSET=M
+2.
+*ELEMENT, TYPE=ROTARYI, ELSET=I
+3, 2
+*ROTARY INERTIA, ELSET=I
+{inertia}
+*ELEMENT, TYPE=CONN3D2, ELSET=JOINT
+5, 1, 2
+*ORIENTATION, NAME=ALONG
+1., 0., 0., 0., 1., 0.
+*CONNECTOR BEHAVIOR, NAME=B
+{behavior}*CONNECTOR SECTION, ELSET=JOINT, BEHAVIOR=B
+{connector}
+ALONG
+*BOUNDARY
+1, 1, 6
+"""
+
+
+def last(job, variable, step=1, group="element_5"):
+    return job.history(group, variable, step)[1][-1]
+
+
+def strut(run):
+    """A strut with spring, preload, bump stop and rebound stop in statics: what the spring does not carry, the stop does."""
+    stiffness, free, rebound, bump = 1e4, 0.35, 0.32, 0.2
+    behavior = f"""*CONNECTOR ELASTICITY, COMPONENT=1
+{stiffness}
+*CONNECTOR CONSTITUTIVE REFERENCE
+{free}
+*CONNECTOR STOP, COMPONENT=1
+{bump}, {rebound}
+"""
+    loads = (0.0, -1000.0, -3000.0, -200.0)
+    steps = "".join(f"*STEP, NLGEOM\n*STATIC\n0.25, 1.\n*BOUNDARY\n2, 4, 4\n*CLOAD\n2, 1, {load}\n{connector_output()}*END STEP\n" for load in loads)
+    for ranks in (1, 2):
+        job = run(two_nodes("CYLINDRICAL", behavior) + steps, ranks)
+        for step, load in enumerate(loads, 1):
+            place = min(max(free + load / stiffness, bump), rebound)
+            spring = stiffness * (place - free)
+            check(f"place under {load}", last(job, "CP", step)[0], place, 1e-12)
+            check(f"spring under {load}", last(job, "CEF", step)[0], spring, 1e-10)
+            check(f"stop under {load}", last(job, "CRF", step)[0], load - spring, 1e-9)
+            check(f"whole under {load}", last(job, "CTF", step)[0], load, 1e-9)
+
+
+def struck_pendulum(run):
+    """A bar that falls from level onto a stop of its hinge: it arrives as it must, loses all its speed and stays."""
+    length, limit = 0.8, -1.0
+    lines, centres = rods([(0.0, 0.0), (length, 0.0)])
+    deck = deck_of_rods(lines, centres, explicit_step(1e-4, 1.0, GRAVITY, history("CENTRES", "UR3", 0.01) + connector_output("HINGES", 0.01)
+                                                      .split("\n", 1)[1]))
+    deck = deck.replace("*CONNECTOR SECTION, ELSET=HINGES", f"*CONNECTOR BEHAVIOR, NAME=B\n*CONNECTOR STOP, COMPONENT=4\n{limit},\n"
+                        "*CONNECTOR SECTION, ELSET=HINGES, BEHAVIOR=B").replace("ALLKE, ALLIE, ALLWK, ETOTAL", "ALLKE, ALLIE, ALLWK, ALLVD, ETOTAL")
+    for ranks in (1, 3):
+        job = run(deck, ranks)
+        time, turn = job.history("node_13", "UR3")
+        free = integrate(lambda x: np.array([x[1], -1.5 * G / length * math.cos(x[0])]), [0.0, 0.0], time)[:, 0]
+        falls = np.arange(len(time)) < np.argmax(free < limit)
+        check("angle on the way", np.abs(turn - free)[falls].max(), 0.0, 1e-6)
+        check("angle at the stop", np.abs(turn[~falls] - limit).max(), 0.0, 1e-9)
+        check("speed that was lost", job.history("energy", "ALLVD")[1][-1], length * G * length / 2.0 * math.sin(-limit), 1e-4)
+        check("moment of the stop", last(job, "CRF", group="element_3000")[3], -length * G * length / 2.0 * math.cos(limit), 1e-6)
+        check_energy(job, 1e-3)
+
+
+def braked_rotor(run):
+    """A rotor whose hinge rubs with a constant moment comes to rest in omega I / M, and stays there under a smaller moment."""
+    inertia, speed, moment = 0.02, 10.0, 0.5
+    behavior = "*CONNECTOR FRICTION, COMPONENT=4\n2.5,\n*FRICTION\n0.2\n"
+    deck = two_nodes("HINGE", behavior, at=0.0) + f"*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\n2, {speed}\n0., 0., 0., 1., 0., 0.\n"
+    deck += explicit_step(1e-4, 1.0, "*CLOAD, AMPLITUDE=LATER\n2, 4, 0.4\n",
+                          history("BODY", "UR1", 0.01).replace("ALLWK", "ALLWK, ALLFD") + connector_output("JOINT", 0.01).split("\n", 1)[1])
+    deck = deck.replace("*INITIAL CONDITIONS", "*AMPLITUDE, NAME=LATER\n0., 0., 0.5, 0., 0.6, 1., 1., 1.\n*INITIAL CONDITIONS", 1)
+    for ranks in (1, 2):
+        job = run(deck, ranks)
+        time, turn = job.history("node_2", "UR1")
+        slow = moment / inertia
+        stop = speed / slow
+        expected = np.where(time < stop, speed * time - 0.5 * slow * time**2, 0.5 * speed * stop)
+        check("angle", np.abs(turn - expected).max(), 0.0, 2e-3 * expected.max())
+        check("creep at rest", np.ptp(turn[time > stop + 0.02]), 0.0, 1e-12)
+        check("work of friction", job.history("energy", "ALLFD")[1][-1], 0.5 * inertia * speed**2, 1e-3)
+        check("moment that holds", last(job, "CSF")[3], 0.4, 1e-6)
+        check_energy(job, 1e-3)
+
+
+def rubbing_slider(run):
+    """A block on a slot that is pressed across it: it sticks up to mu N, in statics and on its way."""
+    behavior = """*CONNECTOR DERIVED COMPONENT, NAME=PRESSED
+2, 3
+*CONNECTOR FRICTION, COMPONENT=1, CONTACT FORCE=PRESSED
+*FRICTION
+0.3
+*CONNECTOR ELASTICITY, COMPONENT=1
+1e4
+"""
+    steps = ""
+    for along in (20.0, 50.0, 35.0):
+        steps += f"*STEP, NLGEOM\n*STATIC\n0.25, 1.\n*CLOAD\n2, 1, {along}\n2, 2, -60.\n2, 3, 80.\n{connector_output()}*END STEP\n"
+    for ranks in (1, 2):
+        job = run(two_nodes("TRANSLATOR", behavior) + steps, ranks)
+        check("it sticks", abs(last(job, "CU", 1)[0]), 0.0, 1e-12)
+        check("friction that holds", last(job, "CSF", 1)[0], 20.0, 1e-9)
+        check("it slips", last(job, "CU", 2)[0], 20.0 / 1e4, 1e-9)
+        check("friction that slips", last(job, "CSF", 2)[0], 30.0, 1e-9)
+        check("it sticks where it was", last(job, "CU", 3)[0], 20.0 / 1e4, 1e-9)
+        check("friction less", last(job, "CSF", 3)[0], 15.0, 1e-8)
+
+
+def slider_crank(run):
+    """The slider of a crank that a motion of its hinge turns, in statics and in time: r cos a + sqrt(l^2 - r^2 sin^2 a)."""
+    r, l, speed = 0.3, 0.8, 5.0
+    points = [(0.0, 0.0), (r, 0.0), (r + l, 0.0)]
+    lines, centres = rods(points)
+    lines["node"].append(f"3, {r + l!r}, 0., 0.\n4, {r + l!r}, 0., 0.")
+    extra = f"""*ELEMENT, TYPE=MASS, ELSET=SLIDER
+7000, 4
+*MASS, ELSET=SLIDER
+1.
+*ELEMENT, TYPE=ROTARYI, ELSET=SLIDERI
+7003, 4
+*ROTARY INERTIA, ELSET=SLIDERI
+0.01, 0.01, 0.01
+*ELEMENT, TYPE=CONN3D2, ELSET=PIN
+7001, 22, 4
+*ELEMENT, TYPE=CONN3D2, ELSET=GUIDE
+7002, 3, 4
+*ELSET, ELSET=CRANK
+3000
+*ORIENTATION, NAME=ALONG_X
+1., 0., 0., 0., 1., 0.
+*CONNECTOR SECTION, ELSET=PIN
+JOIN
+*CONNECTOR SECTION, ELSET=GUIDE
+TRANSLATOR
+ALONG_X
+*NSET, NSET=SLIDER
+4
+*BOUNDARY
+3, 1, 6
+"""
+    place = lambda a: r * np.cos(a) + np.sqrt(l**2 - (r * np.sin(a))**2)
+    moves = explicit_step(1e-4, 2.0, f"*CONNECTOR MOTION, TYPE=VELOCITY\nCRANK, 4, {speed}\n", history("SLIDER", "U1", 0.01))
+    turns = f"*STEP, NLGEOM, INC=200\n*STATIC\n0.05, 1., 1e-6, 0.05\n*CONNECTOR MOTION\nCRANK, 4, {2.5 * math.pi!r}\n*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=SLIDER\nU1\n*END STEP\n"
+    for steps, angle, tolerance in ((moves, lambda t: speed * t, 1e-6), (turns, lambda t: 2.5 * math.pi * t, 1e-8)):
+        for ranks in (1, 2):
+            job = run(deck_of_rods(lines, centres, extra + steps), ranks)
+            time, u = job.history("node_4", "U1")
+            check("place of the slider", np.abs(r + l + u - place(angle(time))).max(), 0.0, tolerance)
+
+
+def on_the_ground(run):
+    """Springs between a body and the ground, where the body is at first: one end is left empty, or is 0."""
+    for ends in ("2,", ", 2", "0, 2", "2, 0"):
+        deck = two_nodes("CARTESIAN", "*CONNECTOR ELASTICITY, COMPONENT=1\n100.\n", at=0.3).replace("5, 1, 2\n", f"5, {ends}\n")
+        steps = "".join(f"*STEP, NLGEOM\n*STATIC\n*BOUNDARY, OP=NEW\n2, 2, 6\n*CLOAD\n2, 1, {load}\n{connector_output()}*END STEP\n" for load in (3.0, 5.0))
+        job = run(deck.replace("*BOUNDARY\n1, 1, 6\n", "") + steps, 2)
+        for step, load in ((1, 3.0), (2, 5.0)):
+            sign = 1.0 if ends in (", 2", "0, 2") else -1.0
+            check(f"relative motion of {ends}", last(job, "CU", step)[0], sign * load / 100.0, 1e-12)
+
+
+def driven_hinge(run):
+    """A moment between the ground and a rotor: half M t^2 / I; in statics against a spring, M / k; a hinge that locks."""
+    inertia = 0.02
+    job = run(two_nodes("HINGE", at=0.0) + explicit_step(1e-4, 1.0, "*CONNECTOR LOAD\nJOINT, 4, 0.1\n", history("BODY", "UR1", 0.1)), 2)
+    time, turn = job.history("node_2", "UR1")
+    check("angle under a moment", np.abs(turn - 0.5 * 0.1 / inertia * time**2).max(), 0.0, 1e-3)
+    check_energy(job, 1e-3)
+    spring = "*CONNECTOR ELASTICITY, COMPONENT=4\n0.5\n"
+    job = run(two_nodes("HINGE", spring, at=0.0) + f"*STEP, NLGEOM\n*STATIC\n*CONNECTOR LOAD\n5, 4, 0.1\n{connector_output()}*END STEP\n", 1)
+    check("angle against a spring", last(job, "CU")[3], 0.2, 1e-12)
+    check("the load itself", last(job, "CCF")[3], 0.1, 1e-12)
+    lock = "*CONNECTOR LOCK, COMPONENT=4\n, 0.3\n"
+    job = run(two_nodes("HINGE", lock, at=0.0) + explicit_step(1e-4, 1.0, "*CONNECTOR LOAD\nJOINT, 4, 0.1\n", history("BODY", "UR1", 0.01)), 1)
+    turn = job.history("node_2", "UR1")[1]
+    check("angle where it locked", turn[-1], 0.3, 1e-3)
+    check("it stays", np.ptp(turn[-20:]), 0.0, 1e-12)
+
+
+if __name__ == "__main__":
+    run_case({case.__name__: case for case in (strut, struck_pendulum, braked_rotor, rubbing_slider, slider_crank, on_the_ground, driven_hinge)})
