@@ -113,7 +113,7 @@ class Analysis : public ResultSource {
   SmallStrainOutput& small_strain() const;
   void make_local_constraints();
   /// Adds what a connector's constraints exert to a total force CTF (as of a spring that is pulled), or to a part of it: CRF of what holds,
-  /// stops, locks or drives it, CSF of friction, CCF of loads.
+  /// stops (friction at the stop included), locks or drives it, CSF of friction, CCF of loads.
   void add_connector_forces(ElementRef connector, std::string_view variable, std::span<double> values) const;
   void sum_masses();
   template <class Visit>

@@ -21,6 +21,20 @@ double load_on(const Analysis& analysis, std::int32_t guide, int row) {
   return load_magnitude(analysis.model, step, load->previous, load->magnitude, load->amplitude, state.step_time, state.total_time);
 }
 
+/// Where a stop, a lock or a driver holds, what friction could bear as well counts as theirs.
+bool is_held(const Analysis& analysis, std::int32_t index, int row, std::span<const double> measured) {
+  const auto& guide = *analysis.constraints[index]->guide();
+  const auto place = static_cast<std::size_t>(analysis.first_constraint_row[index] + row);
+  const auto& state = analysis.current;
+  if (state.guide_locked[place] != 0.0) return true;
+  const auto stop = guide.of_motion(row, guide.definition().rows[row].stop);
+  const double motion = guide.nearest(row, measured[row], state.guide_motion[place]), resolution = 1e-9 * guide.size();
+  if (motion <= stop[0] + resolution || motion >= stop[1] - resolution) return true;
+  if (state.step >= static_cast<std::int32_t>(analysis.model.steps.size())) return false;
+  const auto& motions = analysis.model.steps[state.step].connector_motions;
+  return std::ranges::any_of(motions, [&](const auto& driver) { return driver.guide == index && driver.row == row; });
+}
+
 }  // namespace
 
 void Analysis::add_connector_forces(ElementRef connector, std::string_view variable, std::span<double> values) const {
@@ -37,11 +51,15 @@ void Analysis::add_connector_forces(ElementRef connector, std::string_view varia
       for (int c = 0; c < 6 && (total || variable == "CRF"); ++c) values[c] += held[c];
       continue;
     }
+    std::vector<NodePlace> places;
+    std::vector<double> measured(rows);
+    find_places(index, places);
+    guide->gaps(places, measured);
     for (int row = 0; row < guide->rows(); ++row) {
       const double force = guide->lever(row) * multipliers[row], load = load_on(*this, index, row);
-      const auto* part = guide->definition().rows[row].friction ? "CSF" : "CRF";
+      const bool rubs = guide->definition().rows[row].friction && !is_held(*this, index, row, measured);
       if (total) values[guide->component(row)] += force;
-      if (variable == part) values[guide->component(row)] += force + load;
+      if (variable == (rubs ? "CSF" : "CRF")) values[guide->component(row)] += force + load;
       if (variable == "CCF") values[guide->component(row)] += load;
     }
   }

@@ -211,7 +211,7 @@ void GuideLaws::add_work(std::int32_t constraint_row, double force, double motio
   const auto& row = rows_[place_[constraint_row]];
   const double by_load = row.motion != nullptr ? force * motion : 0.5 * (row.old_load + row.law.load) * motion;
   work.external -= by_load;
-  (row.definition->friction ? work.friction : work.damping) += force * motion - by_load;
+  (row.definition->friction && !row.law.is_stopped() ? work.friction : work.damping) += force * motion - by_load;
 }
 
 }  // namespace balocco

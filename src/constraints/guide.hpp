@@ -20,6 +20,8 @@ class GuideConstraint : public Constraint {
   int component(int row) const { return guide_.rows[row].component; }
   /// What motions of a row are multiplied by, and forces divided: 1, of angles a length.
   double lever(int row) const { return component(row) < 3 ? 1.0 : lever_; }
+  /// Length by which motions are judged: the model's.
+  double size() const { return lever_; }
   /// Of motions of a row that differ by whole turns the one nearest to the last.
   double nearest(int row, double motion, double last) const {
     return lever(row) * relative_.nearest(component(row), motion / lever(row), last / lever(row));

@@ -405,8 +405,8 @@ ALLKE, ALLIE, ALLWK, ETOTAL
 
 
 def same_bits(run):
-    """Two tied blocks, the upper one coupled to a node on which a body hangs by a hinge, thrown about: the same bits on any number of
-    ranks, and when the job is stopped on the way and goes on on another number."""
+    """Two tied blocks, the upper one coupled to a node on which a body hangs by a hinge that rubs and has stops, thrown about: the same
+    bits on any number of ranks, and when the job is stopped on the way and goes on on another number."""
     lower, bricks, number = block(4, 4, 2, (1.0, 1.0, 0.5))
     upper, more, other = block(3, 3, 2, (1.0, 1.0, 0.5), (0.0, 0.0, 0.5), 501, 501)
     high = [other(i, j, 2) for i in range(4) for j in range(4)]
@@ -419,10 +419,12 @@ def same_bits(run):
                       "*ELEMENT, TYPE=ROTARYI, ELSET=I\n2002, 902\n*ROTARY INERTIA, ELSET=I\n2., 3., 4.", "*RIGID BODY, REF NODE=902, TIE NSET=LINK",
                       "*ELEMENT, TYPE=CONN3D2, ELSET=HINGE\n2003, 900, 901", "*ORIENTATION, NAME=ACROSS\n0., 1., 0., 0., 0., 1.",
                       "*CONNECTOR BEHAVIOR, NAME=TORSION\n*CONNECTOR ELASTICITY, COMPONENT=4\n1e4\n*CONNECTOR DAMPING, COMPONENT=4\n10.",
+                      "*CONNECTOR STOP, COMPONENT=4\n-0.02, 0.02\n*CONNECTOR FRICTION, COMPONENT=4\n5.,\n*FRICTION\n0.2",
                       "*CONNECTOR SECTION, ELSET=HINGE, BEHAVIOR=TORSION\nHINGE\nACROSS",
                       "*MATERIAL, NAME=SOFT\n*HYPERELASTIC, NEO HOOKE\n1e5, 1e-6\n*DENSITY\n1000.", "*SOLID SECTION, ELSET=BOTH, MATERIAL=SOFT",
                       "*INITIAL CONDITIONS, TYPE=VELOCITY\nBOB, 1, 2.\nHIGH, 3, 1.", "*STEP\n*DYNAMIC, EXPLICIT\n, 5.",
-                      "*OUTPUT, HISTORY, TIME INTERVAL=0.1\n*NODE OUTPUT, NSET=ALL\nU\n*NODE OUTPUT, NSET=BOB\nU, UR\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ETOTAL\n*END STEP\n"])
+                      "*OUTPUT, HISTORY, TIME INTERVAL=0.1\n*NODE OUTPUT, NSET=ALL\nU\n*NODE OUTPUT, NSET=BOB\nU, UR",
+                      "*ELEMENT OUTPUT, ELSET=HINGE\nCP, CRF, CSF\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ALLVD, ALLFD, ETOTAL\n*END STEP\n"])
     jobs = [run(deck, ranks) for ranks in (1, 2, 3)]
     check_energy(jobs[0], 1e-2)
     stopped = Job("stopped", jobs[0].balocco, "2", jobs[0].folder)
@@ -435,8 +437,14 @@ def same_bits(run):
         for node in (number(2, 2, 2), other(1, 1, 0), other(0, 0, 2), 902):
             same = np.array_equal(jobs[0].history(f"node_{node}", "U")[1], job.history(f"node_{node}", "U")[1])
             check(f"bits of node {node} in {job.name}", float(same), 1.0, 0.0)
-    moved = np.abs(jobs[0].history("node_902", "U")[1]).max()
-    check("the body moves", float(moved > 0.05), 1.0, 0.0)
+        stop = np.array_equal(jobs[0].history("element_2003", "CRF")[1], job.history("element_2003", "CRF")[1])
+        check(f"bits of the stop in {job.name}", float(stop), 1.0, 0.0)
+    angle, stop, friction = (jobs[0].history("element_2003", variable)[1][:, 3] for variable in ("CP", "CRF", "CSF"))
+    at_stop = np.abs(angle + 0.02) < 1e-9
+    check("times at the stop", float(at_stop.sum()), 2.0, 0.0)
+    check("forces of the stop away from it", np.abs(stop[~at_stop]).max(), 0.0, 0.0)
+    check("the stop has struck back", float(stop[at_stop].min() < -100.0), 1.0, 0.0)
+    check("friction slips", np.abs(np.abs(friction[~at_stop]) - 1.0).max(), 0.0, 1e-12)
 
 
 def springs_on_an_arm(run):
