@@ -98,6 +98,12 @@ BAR = """*NODE
 """
 
 
+THROWN = """*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY
+WATCHED, 5., 1., 2., 0.5
+0.5, 0.05, 0.05, 0.5, 0.05, 1.05
+"""
+
+
 def bar():
     nodes, elements = "", ""
     for i in range(5):
@@ -112,10 +118,7 @@ def free_flight(balocco, folder):
     """A soft bar is thrown with a spin: its centre of mass flies straight, its spin keeps its moment of momentum, and what ALPHA=0
     changes of its energy is of second order."""
     job = Job("thrown", balocco, "2", folder)
-    job.run(bar() + """*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY
-WATCHED, 5., 1., 2., 0.5
-0.5, 0.05, 0.05, 0.5, 0.05, 1.05
-*STEP, NLGEOM, INC=1000
+    job.run(bar() + THROWN + """*STEP, NLGEOM, INC=1000
 *DYNAMIC, DIRECT, ALPHA=0.
 1e-2, 0.5
 %s*END STEP
@@ -134,6 +137,36 @@ WATCHED, 5., 1., 2., 0.5
     check("momentum", np.abs(momentum - momentum[0]).max() / np.abs(momentum[0]).max(), 0.0, 1e-8)
     total = job.history("energy", "ETOTAL")[1]
     check("energy", np.abs(total - total[0]).max() / total[0], 0.0, 2e-2)
+
+
+def modal_response(balocco, folder):
+    """A force that acts at once on a mass and spring, by their mode: F / k (1 - cos), damped and not; any increment is exact."""
+    force, period = 2.0, 2.0 * math.pi / OMEGA
+    for ratio in (0.0, 0.1):
+        damping = "*MODAL DAMPING\n1, 1, %g\n" % ratio if ratio else ""
+        job = Job("modal", balocco, "1" if ratio else "2", folder)
+        job.run(oscillator(["*FREQUENCY\n1", "*MODAL DYNAMIC\n%.15g, %.15g\n%s*CLOAD\n2, 1, %g" % (period / 7, 3.0 * period, damping, force)], speed=0.0))
+        time, u = job.history("node_2", "U", 2)
+        damped = OMEGA * math.sqrt(1.0 - ratio**2)
+        fading = np.exp(-ratio * OMEGA * time) * (np.cos(damped * time) + ratio * OMEGA / damped * np.sin(damped * time))
+        check("response, damped by %g" % ratio, np.abs(u[:, 0] - force / 1000.0 * (1.0 - fading)).max(), 0.0, 1e-10)
+
+
+def stopped_and_resumed(balocco, folder):
+    """The rubber bar in flight by implicit dynamics, stopped after its first step: it goes on to the same bits, and on other numbers of
+    ranks to the same motion but for the order of elimination."""
+    step = "*STEP, NAME=%s, NLGEOM, INC=1000\n*DYNAMIC, DIRECT\n1e-2, 0.1\n" + HISTORY + "*END STEP\n"
+    deck = bar() + THROWN + step % "FIRST" + step % "SECOND"
+    whole = [Job("on_" + ranks, balocco, ranks, folder) for ranks in ("1", "2", "3")]
+    for job in whole:
+        job.run(deck)
+    stopped = Job("stopped", balocco, "1", folder)
+    stopped.run(deck, arguments=("--until", "FIRST"))
+    stopped.run(deck, arguments=("--restart",))
+    motion = lambda job: job.history("node_20", "U", 2)[1]
+    check("bits after a restart", float(np.array_equal(motion(whole[0]), motion(stopped))), 1.0, 0.0)
+    for job in whole[1:]:
+        check("motion on %s ranks" % job.ranks, np.abs(motion(job) - motion(whole[0])).max() / np.abs(motion(whole[0])).max(), 0.0, 1e-8)
 
 
 def body(steps, inertia, spin, extra=""):
@@ -188,7 +221,8 @@ def spinning_body(balocco, folder):
     check("order of its error", math.log2(error[0] / error[1]), 2.0, 0.1)
 
 
-CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body)}
+CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body, modal_response,
+                                            stopped_and_resumed)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](*sys.argv[2:])

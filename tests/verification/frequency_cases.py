@@ -220,6 +220,22 @@ def strip_buckled(runner):
         close(value, wave * (stiffness * wave - press) / (DENSITY * thickness), 2e-2, "eigenvalue %d" % k)
 
 
+def euler_column(runner):
+    """Load factors of a clamped column, extrapolated from two meshes: Euler's with shear, uniform in the one element across, and with
+    the stress in the stiffness along it, P / (1 + P / G A + P / E A); both ways across alike, and of three quarters of a wave."""
+    young, length, width = 1000.0, 20.0, 1.0
+    factors = []
+    for count, ranks in ((30, 1), (60, 2)):
+        deck = brick((count, 1, 1), (length, width, width), "C3D8I")
+        deck.sets.update(FOOT=deck.where(lambda x, y, z: x == 0.0), TOP=deck.where(lambda x, y, z: x == length))
+        deck.add("*SOLID SECTION, ELSET=ALL, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n%g, 0." % young)
+        deck.add("*STEP\n*BUCKLE\n4\n*BOUNDARY\nFOOT, 1, 3\n*CLOAD\nTOP, 1, -0.25\n*END STEP")
+        factors.append([mode.attrs["eigenvalue"] for mode in modes(runner.run("column_%d" % count, deck, ranks), 1)])
+    for k in range(4):
+        euler = ((1 + 2 * (k // 2)) * math.pi / (2.0 * length)) ** 2 * young * width**4 / 12.0
+        close((4.0 * factors[1][k] - factors[0][k]) / 3.0, euler / (1.0 + 3.0 * euler / (young * width**2)), 3e-4, "load factor %d" % (k + 1))
+
+
 def shaft(runner):
     """Torsion of a round beam held at one end, its nodes with the polar inertia of the section, which is its torsion constant:
     f_k = sqrt(G / rho) / (h pi) sin((2k - 1) pi / 4n)."""
@@ -266,7 +282,7 @@ def sliding(runner):
 
 
 CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent,
-                                                strip_buckled, shaft, sliding)}
+                                                strip_buckled, euler_column, shaft, sliding)}
 CASES["cantilever"] = cantilever_modes
 
 if __name__ == "__main__":
