@@ -7,6 +7,15 @@
 
 namespace balocco {
 
+namespace {
+
+template <class Procedure>
+bool has_step(const Model& model) {
+  return std::ranges::any_of(model.steps, [](const Step& step) { return std::holds_alternative<Procedure>(step.procedure); });
+}
+
+}  // namespace
+
 std::vector<std::pair<Location, std::string>> check_constraints(const Model& model) {
   std::vector<std::pair<Location, std::string>> errors;
   if (model.constraints.empty()) return errors;
@@ -17,12 +26,16 @@ std::vector<std::pair<Location, std::string>> check_constraints(const Model& mod
     for (const auto* nodes : {&body.tie_nodes, &body.pin_nodes})
       for (const auto node : *nodes) body_of[node] = index;
   }
-  const bool is_explicit =
-      std::ranges::any_of(model.steps, [](const Step& step) { return std::holds_alternative<ExplicitProcedure>(step.procedure); });
+  const bool is_explicit = has_step<ExplicitProcedure>(model), is_implicit_dynamic = has_step<DynamicProcedure>(model);
   for (const auto& definition : model.constraints) {
     if (is_explicit && std::holds_alternative<GreatestDistance>(definition.kind))
       errors.emplace_back(Location{definition.file, definition.line},
                           fmt::format("{}: DIST pulls in implicit steps alone; replace it by a spring with a table (*SPRING, NONLINEAR)", definition.keyword));
+    if (is_implicit_dynamic && std::holds_alternative<Guide>(definition.kind))
+      errors.emplace_back(Location{definition.file, definition.line},
+                          fmt::format("{}: stops, locks, friction, motions and loads of connectors have no place in implicit *DYNAMIC steps; give the "
+                                      "step EXPLICIT, or remove them",
+                                      definition.keyword));
     const auto* joint = std::get_if<Joint>(&definition.kind);
     if (joint == nullptr) continue;
     const auto first = body_of.find(joint->nodes[0]), second = body_of.find(joint->nodes[1]);
