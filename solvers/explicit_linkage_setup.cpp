@@ -178,25 +178,10 @@ void ExplicitLinkages::drop_implied_rows(const Analysis& analysis, System& syste
 }
 
 void ExplicitLinkages::number(System& system) const {
-  struct Use {
-    std::size_t member, first;
-  };
-  std::vector<std::vector<Use>> uses(system.movers.size());
-  for (std::size_t index = 0; index < system.members.size(); ++index) {
-    auto& member = system.members[index];
+  for (auto& member : system.members) {
     member.first_row = system.rows;
     system.rows += static_cast<int>(member.rows.size());
-    std::size_t first = 0;
-    for (const auto m : member.movers) {
-      uses[m].push_back({index, first});
-      first += static_cast<std::size_t>(system.movers[m].size);
-    }
   }
-  for (std::size_t m = 0; m < uses.size(); ++m)
-    for (std::size_t i = 0; i < uses[m].size(); ++i)
-      for (std::size_t j = i; j < uses[m].size(); ++j)
-        system.members[uses[m][i].member].shared.push_back({uses[m][j].member, uses[m][i].first, uses[m][j].first, system.movers[m].size});
-  for (auto& member : system.members) std::ranges::stable_sort(member.shared, {}, &Shared::member);
   system.unknowns = system.rows;
   for (auto& mover : system.movers) {
     const bool of_node = mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation;
@@ -204,9 +189,42 @@ void ExplicitLinkages::number(System& system) const {
     mover.first_unknown = system.unknowns;
     system.unknowns += static_cast<int>(mover.directions.size());
   }
+  list_shared_movers(system);
   system.solution.assign(static_cast<std::size_t>(system.unknowns), 0.0);
-  system.residual = system.solution;
+  system.residual.assign(static_cast<std::size_t>(system.unknowns + (system.hub >= 0 ? 6 : 0)), 0.0);
   system.holds.assign(static_cast<std::size_t>(system.rows), true);
+}
+
+void ExplicitLinkages::list_shared_movers(System& system) const {
+  struct Use {
+    std::size_t member, first;
+  };
+  std::vector<std::vector<Use>> uses(system.movers.size());
+  for (std::size_t index = 0; index < system.members.size(); ++index) {
+    std::size_t first = 0;
+    for (const auto m : system.members[index].movers) {
+      uses[m].push_back({index, first});
+      first += static_cast<std::size_t>(system.movers[m].size);
+    }
+  }
+  constexpr std::size_t many = 4;
+  std::size_t most = system.is_small() ? system.members.size() : many - 1;
+  for (std::size_t m = 0; m < uses.size(); ++m) {
+    if (system.movers[m].kind != Mover::Kind::body || uses[m].size() <= most) continue;
+    most = uses[m].size();
+    system.hub = static_cast<std::int32_t>(m);
+  }
+  for (std::size_t m = 0; m < uses.size(); ++m)
+    for (std::size_t i = 0; i < uses[m].size(); ++i) {
+      auto& member = system.members[uses[m][i].member];
+      if (static_cast<std::int32_t>(m) == system.hub) {
+        member.hub_column = static_cast<std::ptrdiff_t>(uses[m][i].first);
+        continue;
+      }
+      for (std::size_t j = i; j < uses[m].size(); ++j)
+        member.shared.push_back({uses[m][j].member, uses[m][i].first, uses[m][j].first, system.movers[m].size});
+    }
+  for (auto& member : system.members) std::ranges::stable_sort(member.shared, {}, &Shared::member);
 }
 
 void ExplicitLinkages::take_over(const System& system, InverseInertia& inverse) {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
 
 #include "constraints/rigid_body.hpp"
 #include "math/rotation.hpp"
@@ -58,93 +57,6 @@ void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) c
       }
     }
   }
-}
-
-void ExplicitLinkages::find_responses(const Analysis& analysis, System& system) const {
-  for (auto& mover : system.movers) {
-    if (mover.kind == Mover::Kind::body) mover.response = bodies_.response(analysis, static_cast<std::size_t>(mover.index));
-    if (mover.kind == Mover::Kind::gyroscopic) {
-      const auto response = gyroscopic_.response(analysis, mover.index);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) mover.response(i, j) = response(i, j);
-    }
-  }
-}
-
-void ExplicitLinkages::find_answers(System& system, double average) const {
-  for (auto& member : system.members) {
-    const std::size_t width = member.columns.size();
-    for (std::size_t i = 0; i < member.rows.size(); ++i) {
-      const double* g = &member.gradient[i * width];
-      double* answer = &member.answer[i * width];
-      for (const auto m : member.movers) {
-        const auto& [response, size] = std::tie(system.movers[m].response, system.movers[m].size);
-        for (int a = 0; a < size; ++a) {
-          double sum = 0.0;
-          for (int b = 0; b < size; ++b) sum += response(a, b) * g[b];
-          answer[a] = average * sum;
-        }
-        g += size;
-        answer += size;
-      }
-    }
-  }
-}
-
-/// Of [ average G W G^T  G_0 ; G_0^T 0 ]: how gaps change with multipliers, and with the velocities of massless directions.
-bool ExplicitLinkages::factorizes(System& system, double average) const {
-  const auto unknowns = static_cast<std::size_t>(system.unknowns);
-  const bool small = system.is_small();
-  std::vector<SparseSolver::Entry> entries;
-  if (small) system.matrix.assign(unknowns * unknowns, 0.0);
-  const auto add_to = [&](int i, int j, double value) {
-    if (small) {
-      system.matrix[i * unknowns + j] += value;
-      if (i != j) system.matrix[j * unknowns + i] += value;
-    } else {  // zeros too: the pattern stays
-      entries.push_back({i, j, value});
-      if (i != j) entries.push_back({j, i, value});
-    }
-  };
-  find_answers(system, average);
-  for (const auto& member : system.members)
-    for (std::size_t i = 0; i < member.rows.size(); ++i) {
-      const int row = member.first_row + static_cast<int>(i);
-      const bool holds = system.holds[row];
-      if (!holds) add_to(row, row, 1.0);  // its multiplier is given
-      for (const auto& [index, first, other_first, size] : member.shared) {
-        const auto& other = system.members[index];
-        const double* const answer = &member.answer[i * member.columns.size() + first];
-        for (std::size_t j = &other == &member ? i : 0; j < other.rows.size(); ++j) {
-          const double* const g = &other.gradient[j * other.columns.size() + other_first];
-          const bool joined = holds && system.holds[other.first_row + j];
-          double sum = 0.0;
-          for (int k = 0; joined && k < size; ++k) sum += answer[k] * g[k];
-          add_to(row, other.first_row + static_cast<int>(j), sum);
-        }
-      }
-      const double* g = &member.gradient[i * member.columns.size()];
-      for (const auto m : member.movers) {
-        const auto& mover = system.movers[m];
-        for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k)
-          add_to(row, mover.first_unknown + static_cast<int>(k), holds ? dot(vector(g), Vector3<double>{mover.directions[k]}) : 0.0);
-        g += mover.size;
-      }
-    }
-  system.factorized_for = average;
-  if (!small) return system.sparse_factors.factorize(entries, system.unknowns);
-  return system.is_definite() ? system.factors.factorize(system.matrix, unknowns) : system.indefinite_factors.factorize(system.matrix, unknowns);
-}
-
-/// solution -= matrix^-1 residual.
-void ExplicitLinkages::correct(System& system) const {
-  if (!system.is_small())
-    system.sparse_factors.solve(system.residual);
-  else if (system.is_definite())
-    system.factors.solve(system.residual);
-  else
-    system.indefinite_factors.solve(system.residual);
-  for (std::size_t i = 0; i < system.solution.size(); ++i) system.solution[i] -= system.residual[i];
 }
 
 void ExplicitLinkages::find_constraint_forces(System& system) const {

@@ -100,6 +100,7 @@ class ExplicitLinkages {
     std::vector<NodePlace> places;  // of the nodes, at the instant
     std::vector<double> gradient;  // rows x columns
     std::vector<double> answer;    // change of velocities by multipliers, likewise
+    std::ptrdiff_t hub_column = -1;  // where those of the hub begin
     std::vector<Shared> shared;    // with itself and members behind it, ordered by member
   };
   struct System {
@@ -107,6 +108,8 @@ class ExplicitLinkages {
     std::vector<Member> members;
     std::vector<std::pair<std::int32_t, int>> mover_of_column;
     int rows = 0, unknowns = 0;  // multipliers; these, and velocities of massless directions
+    /// A body that many members of a large system share: its velocity stays unknown, as eliminating it would couple them all.
+    std::int32_t hub = -1;
     bool is_linear = true;       // the gradient is the same everywhere
     double size = 0.0;           // diagonal of the box around the model, which its positions are as exact as
     double average = 0.0;        // increment of the last motion
@@ -114,6 +117,7 @@ class ExplicitLinkages {
     DefiniteSystem factors;
     PivotingSolver indefinite_factors;  // where massless directions move
     SparseSolver sparse_factors;             // of large ones
+    std::vector<SparseSolver::Entry> entries;  // likewise
     double factorized_for = 0.0;             // average increment; 0: none
     std::vector<double> solution, residual;  // multipliers and velocities
     std::vector<bool> holds;                 // of rows: else the multiplier is given
@@ -134,12 +138,15 @@ class ExplicitLinkages {
   void find_implied_rows(Analysis& analysis, System& system) const;
   void drop_implied_rows(const Analysis& analysis, System& system) const;
   void number(System& system) const;
+  void list_shared_movers(System& system) const;
   void take_over(const System& system, InverseInertia& inverse);
 
   void find_places(const Analysis& analysis, System& system) const;
   void find_gradient(const Analysis& analysis, System& system) const;
   void find_answers(System& system, double average) const;
   void find_responses(const Analysis& analysis, System& system) const;
+  void find_matrix(System& system, double average) const;
+  void find_hub_entries(System& system, double average) const;
   /// @return false where the motion is not determined.
   bool factorizes(System& system, double average) const;
   void factorize(const Analysis& analysis, System& system, double average) const {

@@ -1,4 +1,4 @@
-// Large sparse systems of the explicit loop, on one rank. Eigen stays out of sight: its headers cost seconds in every file.
+// Large sparse symmetric systems of the explicit loop, on one rank. Eigen stays out of sight: its headers cost seconds in every file.
 #pragma once
 
 #include <memory>
@@ -9,6 +9,7 @@ namespace balocco {
 
 class SparseSolver {
  public:
+  /// Of (row, column) and of (column, row).
   struct Entry {
     int row = 0, column = 0;
     double value = 0.0;
@@ -18,13 +19,14 @@ class SparseSolver {
   SparseSolver(SparseSolver&&) noexcept;
   ~SparseSolver();
 
-  /// Factorises the `size` x `size` matrix, whose pattern is that of the first one. @return false if it is singular.
-  bool factorize(const std::vector<Entry>& entries, int size);
+  /// Factorises the `size` x `size` matrix that is the sum of the entries, whose places and turn are those of the first time.
+  /// `factorable`: every symmetric permutation of it has factors L D L^T, which are tried first. @return false if it is singular.
+  bool factorize(const std::vector<Entry>& entries, int size, bool factorable);
   /// The solution replaces the right-hand side.
   void solve(std::span<double> right);
 
  private:
-  struct Implementation;
+  class Implementation;
   std::unique_ptr<Implementation> implementation_;
 };
 

@@ -54,6 +54,26 @@ struct Matrix6 {
   }
 };
 
+/// L D L^T of a symmetric matrix without negative eigenvalues: L with a unit diagonal, where D is zero a column of zeros.
+struct FactoredMatrix6 {
+  Matrix6 lower;
+  Vector6 diagonal;
+};
+inline FactoredMatrix6 factored(const Matrix6& a) {
+  constexpr double next_to_nothing = 1e-12;  // of what was there
+  FactoredMatrix6 result;
+  auto& [lower, diagonal] = result;
+  for (std::size_t j = 0; j < 6; ++j) {
+    for (std::size_t i = j; i < 6; ++i) {
+      lower(i, j) = a(i, j);
+      for (std::size_t k = 0; k < j; ++k) lower(i, j) -= lower(i, k) * diagonal[k] * lower(j, k);
+    }
+    diagonal[j] = lower(j, j) > next_to_nothing * a(j, j) ? lower(j, j) : 0.0;
+    for (std::size_t i = j; i < 6; ++i) lower(i, j) = diagonal[j] > 0.0 ? lower(i, j) / diagonal[j] : 0.0;
+  }
+  return result;
+}
+
 /// Q block(i, j) Q^T of each of the four blocks.
 inline Matrix6 turned(const Matrix3<double>& q, const Matrix6& a) {
   Matrix6 result;

@@ -117,6 +117,38 @@ def deck_of_rods(lines, centres, steps):
                       "*BOUNDARY\nGROUND, 1, 6", steps])
 
 
+def carousel(run):
+    """A free wheel that turns, with 24 bars on ball joints at its rim, which fly out: one large sparse linkage around one body. The
+    centre of mass keeps its path, joints hold, energy stays; the same bits on two ranks."""
+    bars, radius, length, speed = 24, 1.0, 0.4, 3.0
+    rim = [(radius * math.cos(2 * math.pi * i / bars), radius * math.sin(2 * math.pi * i / bars)) for i in range(bars)]
+    nodes, deck = ["1, 0., 0., 0."], []
+    for i, (x, y) in enumerate(rim):
+        nodes += [f"{100 + i}, {x!r}, {y!r}, 0.", f"{200 + i}, {x!r}, {y!r}, 0.", f"{300 + i}, {x!r}, {y!r}, {-length / 2!r}"]
+        deck.append(f"*NSET, NSET=END{i}\n{200 + i}\n*RIGID BODY, REF NODE={300 + i}, TIE NSET=END{i}")
+    numbers = lambda first: ", ".join(map(str, range(first, first + 12))) + ",\n" + ", ".join(map(str, range(first + 12, first + bars)))
+    centres = "*NSET, NSET=CENTRES\n1, " + numbers(300) + "\n*NSET, NSET=RIM\n" + numbers(100) + "\n*NSET, NSET=ENDS\n" + numbers(200)
+    spin = f"*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL, {speed}, 0., 0., 0.2\n0., 0., 0., 0., 0., 1."
+    text = "\n".join(["*NODE", *nodes, centres, *deck, "*NSET, NSET=WHEEL\n1, RIM", "*RIGID BODY, REF NODE=1, TIE NSET=RIM",
+                      "*ELEMENT, TYPE=MASS, ELSET=BARS", *[f"{1000 + i}, {300 + i}" for i in range(bars)], "*MASS, ELSET=BARS\n0.5",
+                      "*ELEMENT, TYPE=ROTARYI, ELSET=TURNS", *[f"{2000 + i}, {300 + i}" for i in range(bars)],
+                      "*ROTARY INERTIA, ELSET=TURNS\n0.02, 0.02, 0.001", "*ELEMENT, TYPE=MASS, ELSET=HUB\n3000, 1\n*MASS, ELSET=HUB\n8.",
+                      "*ELEMENT, TYPE=ROTARYI, ELSET=WHEELI\n3001, 1\n*ROTARY INERTIA, ELSET=WHEELI\n2., 2., 4.",
+                      "*ELEMENT, TYPE=CONN3D2, ELSET=JOINTS", *[f"{4000 + i}, {100 + i}, {200 + i}" for i in range(bars)],
+                      "*CONNECTOR SECTION, ELSET=JOINTS\nJOIN", spin, explicit_step(2e-4, 0.5, "", history("CENTRES", "U", 0.05).replace(
+                          "*ENERGY", "*NODE OUTPUT, NSET=RIM\nU\n*NODE OUTPUT, NSET=ENDS\nU\n*ENERGY"))])
+    jobs = [run(text, ranks) for ranks in (1, 2)]
+    check_energy(jobs[0], 1e-3)
+    path = {node: jobs[0].history(f"node_{node}", "U") for node in (1, *range(100, 100 + bars), *range(200, 200 + bars), *range(300, 300 + bars))}
+    time = path[1][0]
+    centre = (8.0 * path[1][1] + 0.5 * sum(path[300 + i][1] for i in range(bars))) / (8.0 + 0.5 * bars)
+    check("path of the centre of mass", np.abs(centre - np.outer(time, centre[-1] / time[-1])).max(), 0.0, 1e-9)
+    check("joints hold", max(np.abs(path[100 + i][1] - path[200 + i][1]).max() for i in range(bars)), 0.0, 1e-9)
+    check("bars fly out", float(np.linalg.norm(path[300][1][-1] - path[200][1][-1]) > 0.05), 1.0, 0.0)
+    same = all(np.array_equal(path[node][1], jobs[1].history(f"node_{node}", "U")[1]) for node in path)
+    check("bits on two ranks", float(same), 1.0, 0.0)
+
+
 def chain_motion(lengths, density=1.0):
     """Accelerations of a hanging chain of uniform bars by their angles from the x axis."""
     masses = density * np.array(lengths)
@@ -497,5 +529,5 @@ HELD, 1, 6
 
 
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (masses_on_links, falling_chain, four_bar, universal_joint, coupled_tip, turned_coupling, equations,
-                                               tied_blocks, welded_sheets, rest_with_constraints, same_bits, springs_on_an_arm)})
+    run_case({case.__name__: case for case in (masses_on_links, falling_chain, carousel, four_bar, universal_joint, coupled_tip, turned_coupling,
+                                               equations, tied_blocks, welded_sheets, rest_with_constraints, same_bits, springs_on_an_arm)})

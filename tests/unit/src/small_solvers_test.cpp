@@ -72,6 +72,26 @@ TEST(Six, TurnedMatrixTurnsPairs) {
   for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(got[i], expected[i], 1e-14 * 6e8);
 }
 
+TEST(Six, FactorsOfAMatrixGiveItBackHeldOrFree) {
+  const auto values = definite_matrix(6);
+  Matrix6 matrix;
+  std::ranges::copy(values, matrix.component.begin());
+  const auto q = rotation_matrix(exponential({{0.3, -0.7, 1.1}}));
+  for (const bool held : {false, true}) {
+    if (held)  // two directions answer to nothing, on axes that no coordinate follows
+      for (std::size_t i = 0; i < 6; ++i) matrix(1, i) = matrix(i, 1) = matrix(5, i) = matrix(i, 5) = 0.0;
+    const auto whole = held ? turned(q, matrix) : matrix;
+    const auto [lower, diagonal] = factored(whole);
+    EXPECT_EQ(std::ranges::count(diagonal.component, 0.0), held ? 2 : 0);
+    for (std::size_t i = 0; i < 6; ++i)
+      for (std::size_t j = 0; j < 6; ++j) {
+        double sum = 0.0;
+        for (std::size_t k = 0; k < 6; ++k) sum += lower(i, k) * diagonal[k] * lower(j, k);
+        EXPECT_NEAR(sum, whole(i, j), 1e-12 * (1.0 + std::abs(whole(i, i)) + std::abs(whole(j, j))));
+      }
+  }
+}
+
 TEST(Dense, ProductsInversesAndEigenvaluesAgree) {
   Dense<3, 8> g;
   for (int i = 0; i < 24; ++i) g.component[i] = std::sin(1.0 + 3.0 * i + 0.1 * i * i);
