@@ -34,8 +34,7 @@ Guide::Range GuideConstraint::of_motion(int row, const Guide::Range& positions) 
 }
 
 void GuideConstraint::gaps(std::span<const NodePlace> places, std::span<double> motions) const {
-  const MotionSeed<double> still{{}, Matrix3<double>::identity()};
-  const auto measured = relative_.at<double>(places, {still, still});
+  const auto measured = relative_.at(places);
   for (int row = 0; row < rows_; ++row) motions[row] = lever(row) * measured[component(row)];
 }
 

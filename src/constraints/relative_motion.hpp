@@ -71,6 +71,10 @@ class RelativeMotion {
     for (int c = 0; c < 6; ++c) motion[c] = motion[c] - at_start_[c];
     return motion;
   }
+  std::array<double, 6> at(std::span<const NodePlace> places) const {
+    const MotionSeed<double> still{{}, Matrix3<double>::identity()};
+    return at<double>(places, {still, still});
+  }
 
  private:
   template <class T>

@@ -29,6 +29,9 @@ ConnectorGroup::ConnectorGroup(const GroupInput& input)
     if (component.elasticity) elasticity_[c].emplace(component.elasticity->slope, component.elasticity->table);
     if (component.damping) damping_[c].emplace(component.damping->slope, component.damping->table);
   }
+  const auto is_given = [](const auto& law) { return law.has_value(); };
+  pulls_ = std::ranges::any_of(elasticity_, is_given) || std::ranges::any_of(damping_, is_given) || !connector_.coupled_elasticity.empty() ||
+           !connector_.coupled_damping.empty();
   const ElementTable& table = input.model.elements[table_];
   for (std::int32_t element = 0; element < size_; ++element) {
     const auto* node = &table.connectivity[2 * static_cast<std::size_t>(rows_[element])];
@@ -173,6 +176,12 @@ void ConnectorGroup::add_force(std::int32_t element, const ExplicitCycle& cycle,
   std::array<double, 20> before{}, after{};
   gather_history(element, history, before);
   after = before;
+  if (!pulls_) {
+    const auto& relative = references_[element].relative;
+    const auto measured = relative.at(places(element, cycle.motion));
+    for (int c = 0; c < 6; ++c) after[motion_row + c] = relative.nearest(c, measured[c], before[motion_row + c]);
+    return scatter_history(element, after, history);
+  }
   const auto now = kinematics(element, cycle.motion, std::span(before).first(6));
   const auto pulled = pull(element, now.motion, mean_rate(now.motion, std::span(before).first(6), cycle.increment));
   update(now, pulled, before, after);

@@ -75,6 +75,7 @@ class ConnectorGroup : public ElementGroup {
   const Connector& connector_;
   std::vector<Reference> references_;
   std::array<std::optional<ForceCurve>, 6> elasticity_, damping_;
+  bool pulls_ = false;  // by some law; else it is measured alone
 };
 
 }  // namespace balocco
