@@ -4,6 +4,8 @@
 #include <cmath>
 
 #include "constraints/rigid_body.hpp"
+#include "loads/body_load.hpp"
+#include "step_driver.hpp"
 
 namespace balocco {
 
@@ -38,13 +40,7 @@ RigidDynamics::RigidDynamics(const Analysis& analysis, const Step& step) : step_
     const auto row = model.rigid_bodies[i].reference_node;
     body.reference = analysis.domain.local_node[row];
     if (const auto* axes = analysis.directions.find(row)) body.axes = *axes;
-    const auto turning = analysis.domain.turning;
-    body.nodes.push_back({body.reference, analysis.domain.owned[body.reference], body.reference < turning, {}});
-    for (const auto& carried : analysis.current.rigid_bodies[i].nodes) {
-      body.reach = std::max(body.reach, std::sqrt(dot(vector(carried.offset), vector(carried.offset))));
-      if (const auto node = analysis.domain.local_node[carried.node]; node >= 0)
-        body.nodes.push_back({node, analysis.domain.owned[node], carried.tie && node < turning, carried.offset});
-    }
+    add_nodes(analysis, i);
   }
   for (const auto& condition : step.boundary) {
     const auto node = analysis.domain.local_node[condition.node];
@@ -54,11 +50,86 @@ RigidDynamics::RigidDynamics(const Analysis& analysis, const Step& step) : step_
       bodies_[index].is_free = false;
     }
   }
+  sum_gravity(analysis);
   sum_inertia(analysis);
   add_rotary_inertia(analysis);
   refuse_massless(analysis);
   for (auto& body : bodies_)
     if (body.is_free) invert_free(body);
+}
+
+void RigidDynamics::add_nodes(const Analysis& analysis, std::size_t index) {
+  auto& body = bodies_[index];
+  const auto& domain = analysis.domain;
+  const auto& state = analysis.current.rigid_bodies[index];
+  orients_.resize(static_cast<std::size_t>(domain.turning), false);
+  const auto add = [&](std::int32_t node, bool turns, const Point& offset) {
+    constexpr double alike = 1e-9;
+    const auto differ = [&](const auto& of_body, const std::vector<double>& nodal) {
+      for (std::size_t c = 0; c < of_body.size(); ++c)
+        if (!(std::abs(of_body[c] - nodal[4 * static_cast<std::size_t>(node) + c]) < alike)) return true;
+      return false;
+    };
+    const bool oriented = turns && !differ(state.orientation, analysis.current.orientation) && !differ(state.rotation, analysis.current.rotation);
+    if (turns) orients_[node] = oriented;
+    body.nodes.push_back({node, domain.owned[node], turns, oriented, offset});
+  };
+  add(body.reference, body.reference < domain.turning, {});
+  for (const auto& carried : state.nodes) {
+    body.reach = std::max(body.reach, std::sqrt(dot(vector(carried.offset), vector(carried.offset))));
+    if (const auto node = domain.local_node[carried.node]; node >= 0) add(node, carried.tie && node < domain.turning, carried.offset);
+  }
+  body.active = body.nodes.size();
+}
+
+void RigidDynamics::rest_nodes(const std::vector<bool>& touched) {
+  for (auto& body : bodies_) {
+    const auto stays = [&](const CarriedNode& carried) {
+      return carried.node == body.reference || touched[carried.node] || carried.turns != carried.oriented;
+    };
+    body.active = static_cast<std::size_t>(std::ranges::stable_partition(body.nodes, stays).begin() - body.nodes.begin());
+  }
+}
+
+void RigidDynamics::bring_resting_nodes(Analysis& analysis, double increment) const {
+  for (std::size_t i = 0; i < bodies_.size(); ++i) {
+    const auto resting = std::span(bodies_[i].nodes).subspan(bodies_[i].active);
+    place(analysis, analysis.current.rigid_bodies[i], resting);
+    set_node_velocities(analysis, i, increment, resting);
+  }
+}
+
+void RigidDynamics::sum_gravity(const Analysis& analysis) {
+  for (const auto& load : step_.body_loads) {
+    if (load.kind != BodyLoad::Kind::gravity) continue;
+    const auto& share = analysis.loaded_share(load);
+    std::vector<ExactSum> sums(4 * bodies_.size());
+    for (std::size_t i = 0; i < bodies_.size(); ++i)
+      for (const auto& carried : bodies_[i].nodes) {
+        if (!carried.owned) continue;
+        sums[4 * i].add(share[carried.node]);
+        for (std::size_t c = 0; c < 3; ++c) sums[4 * i + 1 + c].add(share[carried.node] * carried.offset[c]);
+      }
+    analysis.communicator.sum(std::span<ExactSum>(sums));
+    auto& gravity = gravity_.emplace_back(Gravity{.load = &load, .mass = {}, .first_moment = {}});
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      gravity.mass.push_back(sums[4 * i].value());
+      gravity.first_moment.push_back({{sums[4 * i + 1].value(), sums[4 * i + 2].value(), sums[4 * i + 3].value()}});
+    }
+  }
+}
+
+void RigidDynamics::find_weights(const Analysis& analysis, const Instant& instant) {
+  for (auto& body : bodies_) body.weight = {};
+  for (const auto& [load, mass, first_moment] : gravity_) {
+    const double magnitude =
+        load_magnitude(analysis.model, step_, load->previous, load->magnitude, load->amplitude, instant.step_time, instant.total_time);
+    for (std::size_t i = 0; i < bodies_.size(); ++i) {
+      const auto& state = analysis.current.rigid_bodies[i];
+      const auto pull = body_force(*load, magnitude, 1.0, state.position.data());
+      bodies_[i].weight += pair_of(mass[i] * pull, cross(rotation_matrix(state) * first_moment[i], pull));
+    }
+  }
 }
 
 RigidDynamics::Motion RigidDynamics::motion(const Analysis& analysis, const Body& body, std::size_t index) const {
@@ -89,7 +160,7 @@ void RigidDynamics::set_initial_velocities(Analysis& analysis, const Instant& in
     const auto [translation, rotation] = global(bodies_[i].axes, velocity);
     state.velocity = translation.component;
     state.angular_velocity = rotation.component;
-    set_node_velocities(analysis, i, 0.0);
+    set_node_velocities(analysis, i, 0.0, bodies_[i].nodes);
   }
 }
 
@@ -104,7 +175,7 @@ bool RigidDynamics::is_held_still(const Analysis& analysis, std::size_t index, c
 void RigidDynamics::add_body_forces(const Analysis& analysis, const NodalForces& forces, std::size_t index,
                                     std::span<ExactSum, 6> sums) const {
   const auto rotation = rotation_matrix(analysis.current.rigid_bodies[index]);
-  for (const auto& [node, owned, turns, offset] : bodies_[index].nodes) {
+  for (const auto& [node, owned, turns, oriented, offset] : std::span(bodies_[index].nodes).first(bodies_[index].active)) {
     if (!owned) continue;
     if (turns)
       for (int c = 0; c < 3; ++c) sums[3 + c].add(forces.moment[4 * static_cast<std::ptrdiff_t>(node) + c]);
@@ -123,6 +194,7 @@ void RigidDynamics::sum_forces(const Analysis& analysis, const NodalForces& forc
   const auto sums_of = [&](const Body& body) {
     return std::span<ExactSum, 6>(&sums_[6 * static_cast<std::size_t>(body.sum)], 6);
   };
+  find_weights(analysis, instant);
   std::int32_t count = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     const bool skipped = which == Which::that_need_it && is_held_still(analysis, i, instant);
@@ -146,7 +218,9 @@ void RigidDynamics::sum_forces(const Analysis& analysis, const NodalForces& forc
     const auto sums = sums_of(bodies_[i]);
     const Vector3<double> moment{
         {sums[3].value() + moments[i][0], sums[4].value() + moments[i][1], sums[5].value() + moments[i][2]}};
-    bodies_[i].force = along(bodies_[i].axes, {{sums[0].value(), sums[1].value(), sums[2].value()}}, moment);
+    const auto& weight = bodies_[i].weight;
+    bodies_[i].force = along(bodies_[i].axes, Vector3<double>{{sums[0].value(), sums[1].value(), sums[2].value()}} + weight.translation(),
+                             moment + weight.rotation());
   }
 }
 
@@ -184,14 +258,14 @@ void RigidDynamics::accelerate(Analysis& analysis, const Instant& instant, const
     state.angular_velocity = rotation.component;
 
     const Vector6 path = instant.previous * now.velocity + instant.next * velocity;
-    const auto turn = global(body.axes, path).rotation;
+    const auto [way, turn] = global(body.axes, path);
     analysis.current.nodal_work[body.reference].external +=
-        0.5 * (dot(body.reaction, path) + dot(vector(moments[i]), turn));
-    set_node_velocities(analysis, i, instant.next);
+        0.5 * (dot(body.reaction, path) + dot(vector(moments[i]), turn) + dot(body.weight, pair_of(way, turn)));
+    set_node_velocities(analysis, i, instant.next, std::span(body.nodes).first(body.active));
   }
 }
 
-void RigidDynamics::set_node_velocities(Analysis& analysis, std::size_t index, double increment) const {
+void RigidDynamics::set_node_velocities(Analysis& analysis, std::size_t index, double increment, std::span<const CarriedNode> nodes) const {
   RigidBodyState middle = {.position = {},
                            .orientation = analysis.current.rigid_bodies[index].orientation,
                            .velocity = analysis.current.rigid_bodies[index].velocity,
@@ -201,7 +275,7 @@ void RigidDynamics::set_node_velocities(Analysis& analysis, std::size_t index, d
   const auto spin = vector(middle.angular_velocity);
   rotate(middle, (0.5 * increment * spin).component);
   const auto rotation = rotation_matrix(middle);
-  for (const auto& carried : bodies_[index].nodes) {
+  for (const auto& carried : nodes) {
     const auto turning = cross(spin, rotation * vector(carried.offset));
     for (int c = 0; c < 3; ++c) analysis.current.velocity[4 * carried.node + c] = middle.velocity[c] + turning[c];
     if (carried.turns) std::ranges::copy(middle.angular_velocity, &analysis.current.angular_velocity[4 * carried.node]);
@@ -213,11 +287,18 @@ void RigidDynamics::advance(Analysis& analysis, double increment) const {
     auto& state = analysis.current.rigid_bodies[i];
     for (int c = 0; c < 3; ++c) state.position[c] += increment * state.velocity[c];
     rotate(state, (increment * vector(state.angular_velocity)).component);
-    const auto rotation = rotation_matrix(state);
-    for (const auto& carried : bodies_[i].nodes) {
-      const auto arm = rotation * vector(carried.offset);
-      for (int c = 0; c < 3; ++c) analysis.current.position[4 * carried.node + c] = state.position[c] + arm[c];
-    }
+    place(analysis, state, std::span(bodies_[i].nodes).first(bodies_[i].active));
+  }
+}
+
+void RigidDynamics::place(Analysis& analysis, const RigidBodyState& state, std::span<const CarriedNode> nodes) const {
+  const auto rotation = rotation_matrix(state);
+  for (const auto& carried : nodes) {
+    const auto arm = rotation * vector(carried.offset);
+    for (int c = 0; c < 3; ++c) analysis.current.position[4 * carried.node + c] = state.position[c] + arm[c];
+    if (!carried.oriented) continue;
+    std::ranges::copy(state.orientation, &analysis.current.orientation[4 * carried.node]);
+    std::ranges::copy(state.rotation, &analysis.current.rotation[4 * carried.node]);
   }
 }
 
@@ -227,7 +308,8 @@ void RigidDynamics::add_to_output(Analysis& analysis, const Instant& instant, co
     const auto [force, moment] = global(body.axes, body.reaction);
     const auto& state = analysis.current.rigid_bodies[i];
     const double power =
-        dot(force, vector(state.velocity)) + dot(moment + vector(moments[i]), vector(state.angular_velocity));
+        dot(force + body.weight.translation(), vector(state.velocity)) +
+        dot(moment + vector(moments[i]) + body.weight.rotation(), vector(state.angular_velocity));
     analysis.work_ahead[body.reference].external += 0.5 * instant.next * power;
     analysis.body_reaction[i] = {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
     const auto [linear, angular] = global(body.axes, body.acceleration);
@@ -245,6 +327,7 @@ void RigidDynamics::add_to_output(Analysis& analysis, const Instant& instant, co
 RigidDynamics::Balance RigidDynamics::balance() const {
   Balance balance;
   for (const auto& body : bodies_) {
+    balance.gravity += dot(body.weight.translation(), body.weight.translation());
     for (int dof = 0; dof < 6; ++dof) {
       const bool is_moment = dof >= 3;
       if (is_moment && body.reach == 0.0) continue;

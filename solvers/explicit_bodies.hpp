@@ -39,9 +39,17 @@ class RigidDynamics {
   /// Bodies that are held where they stand in all degrees of freedom need no forces, except for output.
   enum class Which { all, that_need_it };
   /// Force and moment about the reference node of all nodal forces, of moments on nodes that the body turns, of contact on
-  /// masters, and of `moments`; zero for bodies that need none. Collective.
+  /// masters, of gravity on what the body carries (which nodal forces leave out), and of `moments`; zero for bodies that need none. Collective.
   void sum_forces(const Analysis& analysis, const NodalForces& forces, const std::vector<Point>& moments,
                   const Instant& instant, Which which);
+  /// Nodes on which nothing ever acts between bodies and the rest need not follow their body before somebody looks. `touched`: by local
+  /// node, whether an element, a contact, a load or a constraint may act there.
+  void rest_nodes(const std::vector<bool>& touched);
+  /// Where somebody looks: puts those nodes where their bodies are, with their velocities over the next increment.
+  void bring_resting_nodes(Analysis& analysis, double increment) const;
+  /// Whether a node that turns has its orientation from a body.
+  std::vector<bool> orients() const { return orients_; }
+
   /// Accelerations, reactions and their work; then the velocities of bodies and of their nodes over the next increment.
   void accelerate(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments);
   /// Moves bodies over an increment and puts their nodes where they belong.
@@ -69,7 +77,7 @@ class RigidDynamics {
   /// Squares of the unbalanced forces on free degrees of freedom and of the reactions; moments count with 1 / reach of
   /// the body.
   struct Balance {
-    double unbalanced = 0.0, reactions = 0.0;
+    double unbalanced = 0.0, reactions = 0.0, gravity = 0.0;
   };
   Balance balance() const;
 
@@ -77,6 +85,7 @@ class RigidDynamics {
   struct CarriedNode {
     std::int32_t node = -1;  // local
     bool owned = false, turns = false;  // turns: has a rotation, which is the body's
+    bool oriented = false;              // its orientation too, as they have stood alike
     Point offset{};                     // in the body's frame
   };
   /// As a body stands, along the degrees of freedom.
@@ -96,11 +105,19 @@ class RigidDynamics {
     bool is_free = true;                                 // no degree of freedom is prescribed
     Matrix6 free_inverse{};                              // of the inertia of a free body, body frame
     std::vector<CarriedNode> nodes;
+    std::size_t active = 0;  // the first of them; the others rest
+    Vector6 weight{};        // gravity on what it carries, about the reference node, global
     std::int32_t sum = -1;  // its six sums start at 6 * sum; -1: it needs none in this increment
     // At the current instant, along the degrees of freedom:
     Vector6 force{}, acceleration{}, reaction{};
     Vector3<double> spin{};  // at the instant, global
     mutable Inertia inertia_now;  // found again when the body has turned
+  };
+  /// A gravity load, and what it acts on in each body: mass and first moment about the reference node, body frame.
+  struct Gravity {
+    const BodyLoad* load = nullptr;
+    std::vector<double> mass;
+    std::vector<Vector3<double>> first_moment;
   };
   struct Motion {
     Vector6 displacement, velocity;
@@ -111,6 +128,9 @@ class RigidDynamics {
     Vector3<double> spin;
   };
 
+  void add_nodes(const Analysis& analysis, std::size_t index);
+  void sum_gravity(const Analysis& analysis);
+  void find_weights(const Analysis& analysis, const Instant& instant);
   void sum_inertia(const Analysis& analysis);
   void add_rotary_inertia(const Analysis& analysis);
   void refuse_massless(const Analysis& analysis) const;
@@ -124,12 +144,15 @@ class RigidDynamics {
                  const Vector6& wanted) const;
   Vector6 new_velocity(const Body& body, const Vector6& old_velocity, const Response& response, const Instant& instant,
                        const Vector6& wanted) const;
-  void set_node_velocities(Analysis& analysis, std::size_t index, double increment) const;
+  void place(Analysis& analysis, const RigidBodyState& state, std::span<const CarriedNode> nodes) const;
+  void set_node_velocities(Analysis& analysis, std::size_t index, double increment, std::span<const CarriedNode> nodes) const;
   bool is_held_still(const Analysis& analysis, std::size_t index, const Instant& instant) const;
   void add_body_forces(const Analysis& analysis, const NodalForces& forces, std::size_t index, std::span<ExactSum, 6> sums) const;
 
   const Step& step_;
   std::vector<Body> bodies_;
+  std::vector<Gravity> gravity_;
+  std::vector<bool> orients_;   // by local node that turns
   std::vector<ExactSum> sums_;  // 6 for each body that needs them, room for all
 };
 

@@ -47,7 +47,7 @@ void RigidDynamics::sum_inertia(const Analysis& analysis) {
   constexpr std::size_t moments = 10;  // 1; x y z; xx yy zz xy xz yz
   std::vector<ExactSum> sums(moments * bodies_.size());
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    for (const auto& [node, owned, turns, r] : bodies_[i].nodes) {
+    for (const auto& [node, owned, turns, oriented, r] : bodies_[i].nodes) {
       if (!owned) continue;
       if (turns)  // half of it in each of xx, yy, zz: two of them make a moment of inertia
         for (std::size_t k = 4; k < 7; ++k) sums[moments * i + k].add(0.5 * analysis.rotary_inertia[node]);
@@ -234,7 +234,7 @@ void RigidDynamics::set_velocity(Analysis& analysis, std::size_t index, const Ve
   auto& state = analysis.current.rigid_bodies[index];
   state.velocity = velocity.translation().component;
   state.angular_velocity = velocity.rotation().component;
-  set_node_velocities(analysis, index, 0.0);
+  set_node_velocities(analysis, index, 0.0, bodies_[index].nodes);
 }
 
 }  // namespace balocco

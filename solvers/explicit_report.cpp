@@ -14,6 +14,7 @@ namespace balocco {
 
 void ExplicitStep::fill_output() {
   timers.measure(Phase::output, [&] {
+    bodies_.bring_resting_nodes(analysis_, next_increment_);
     auto& acceleration = analysis_.acceleration;
     analysis_.output_increment = last_increment_ > 0.0 ? last_increment_ : next_increment_;
     std::fill(analysis_.reaction.begin(), analysis_.reaction.end(), 0.0);
@@ -60,9 +61,9 @@ bool ExplicitStep::lands() const {
 bool ExplicitStep::observe() {
   const bool landing = lands();
   if (!is_observed()) return true;
+  fill_output();
   remember_folding();
   report_failure();
-  fill_output();
   if (analysis_.current.increment % regular_increments == 0 || landing || (finished() && !checked_before_landing_))
     check_energy_balance();
   checked_before_landing_ = checked_before_landing_ || landing;
@@ -129,7 +130,7 @@ void ExplicitStep::log_balance() {
       [&](std::size_t node) { return 1.0 / scale_.lever[node]; });
   analysis_.communicator.sum(std::span<double>(sums));
   const double residual = std::sqrt(sums[0] + balance.unbalanced);
-  const double external = std::sqrt(sums[1] + balance.reactions);
+  const double external = std::sqrt(sums[1] + balance.reactions + balance.gravity);
   if (external == 0.0) return;
   observer_.log(
       fmt::format("step {} starts with |f_int + f_contact - f_ext| / |f_ext| = {:.3e} (|f_ext| = {:.6g}, loads and "

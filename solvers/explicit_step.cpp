@@ -102,6 +102,8 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     refuse_massless_restraints(analysis, step, linkages_);
   });
   find_loaded_nodes();
+  bodies_.rest_nodes(touched_nodes());
+  list_drifting_nodes();
   if (has_loads_) {
     external_force_ = force_;
     external_moment_ = moment_;
@@ -142,7 +144,7 @@ void ExplicitStep::find_loaded_nodes() {
   for (const auto& load : step_.body_loads) {
     const auto& share = analysis_.loaded_share(load);
     for (std::size_t node = 0; node < share.size(); ++node)
-      if (share[node] != 0.0) loaded[node] = true;
+      if (share[node] != 0.0 && !is_left_out(analysis_, load, static_cast<std::int32_t>(node), CarriedGravity::left_out)) loaded[node] = true;
   }
   has_loads_ = !step_.concentrated_loads.empty() || !step_.pressures.empty() || !step_.body_loads.empty();
   if (has_loads_)  // what another rank loads arrives through the halo
@@ -151,6 +153,37 @@ void ExplicitStep::find_loaded_nodes() {
   for (std::size_t node = 0; node < loaded.size(); ++node)
     if (loaded[node]) loaded_nodes_.push_back(static_cast<std::int32_t>(node));
   loaded_turning_ = static_cast<std::size_t>(std::ranges::lower_bound(loaded_nodes_, analysis_.domain.turning) - loaded_nodes_.begin());
+}
+
+std::vector<bool> ExplicitStep::touched_nodes() const {
+  const auto& domain = analysis_.domain;
+  std::vector<bool> touched(static_cast<std::size_t>(domain.size()), false);
+  const auto touch = [&](const auto& nodes) {
+    for (const auto node : nodes) touched[node] = true;
+  };
+  touch(loaded_nodes_);
+  for (const auto& neighbour : domain.halo->neighbours()) touch(neighbour.nodes);  // what another rank does there
+  for (const auto& group : analysis_.element_groups)
+    for (std::int32_t element = 0; element < group->size(); ++element)
+      if (group->acts(element)) touch(group->nodes(element));
+  for (const auto& contact : analysis_.contacts) touch(contact.nodes());
+  for (const auto index : analysis_.local_constraints)
+    for (const auto row : analysis_.constraints[index]->nodes()) touched[domain.local_node[row]] = true;
+  for (std::size_t node = 0; node < touched.size(); ++node)
+    if (analysis_.nodal_damping[node] > 0.0 || (node < analysis_.rotary_damping.size() && analysis_.rotary_damping[node] > 0.0)) touched[node] = true;
+  return touched;
+}
+
+/// Runs of nodes that turn, but for those that have their orientation from a body.
+void ExplicitStep::list_drifting_nodes() {
+  const auto oriented = bodies_.orients();
+  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node) {
+    if (!oriented.empty() && oriented[node]) continue;
+    if (!drifting_.empty() && drifting_.back().first + drifting_.back().second == static_cast<std::size_t>(node))
+      ++drifting_.back().second;
+    else
+      drifting_.emplace_back(node, 1);
+  }
 }
 
 Instant ExplicitStep::instant() const {
@@ -193,7 +226,10 @@ void ExplicitStep::advance_positions() {
   const double increment = state.time_increment;
   timers.measure(Phase::update, [&] {
     if (!nodes_are_ahead_) drift(state.position, state.velocity, increment);
-    drift_rotations(state.orientation, state.rotation, state.angular_velocity, increment);
+    for (const auto& [first, count] : drifting_) {
+      const auto run = [&, first = first, count = count](std::vector<double>& nodal) { return std::span(nodal).subspan(4 * first, 4 * count); };
+      drift_rotations(run(state.orientation), run(state.rotation), run(state.angular_velocity), increment);
+    }
   });
   timers.measure(Phase::bodies, [&] { bodies_.advance(analysis_, increment); });
   state.step_time = control_.time_after(state.step_time, increment);
@@ -216,7 +252,7 @@ void ExplicitStep::begin_external_loads() {
     clear_vectors(std::span(external_force_).last(4));  // of the scratch node
     clear_vectors(external_moment_, loaded_turning_nodes());
     add_external_forces(analysis_, step_, state.step_time, state.total_time, state.position.data(), external_forces(),
-                        moments_);
+                        moments_, CarriedGravity::left_out);
   });
 }
 

@@ -73,6 +73,9 @@ class ExplicitStep {
   void add_elements(Portion portion);
   void refuse_loads_without_inertia() const;
   void find_loaded_nodes();
+  /// Local nodes on which anything may act in this step, on any rank.
+  std::vector<bool> touched_nodes() const;
+  void list_drifting_nodes();
   NodalForces forces() { return {force_.data(), moment_.data()}; }
   std::span<const std::int32_t> loaded_turning_nodes() const { return std::span(loaded_nodes_).first(loaded_turning_); }
   /// What the halo sums: forces, and external ones if there are any.
@@ -121,6 +124,7 @@ class ExplicitStep {
   std::vector<double> moment_, external_moment_, damping_moment_;
   std::vector<std::int32_t> loaded_nodes_;  // on which external forces may act, sorted
   std::size_t loaded_turning_ = 0;          // the first of them turn
+  std::vector<std::pair<std::size_t, std::size_t>> drifting_;  // first node and number of runs of nodes that turn by themselves
   std::vector<Point> moments_;                                  // external, per rigid body
   LocalStability stability_;
   double next_increment_ = 0.0, last_increment_ = 0.0;

@@ -24,6 +24,11 @@ double load_magnitude(const Model& model, const Step& step, double previous, dou
   return amplitude >= 0 ? magnitude * factor : previous + (magnitude - previous) * factor;
 }
 
+bool is_left_out(const Analysis& analysis, const BodyLoad& load, std::int32_t node, CarriedGravity carried) {
+  return carried == CarriedGravity::left_out && load.kind == BodyLoad::Kind::gravity &&
+         (analysis.carrier(node) >= 0 || analysis.reference_of(node) >= 0);
+}
+
 namespace {
 
 void add_rounded(double* force, const Point& addend) {
@@ -44,10 +49,11 @@ void add_concentrated_load(const Analysis& analysis, const ConcentratedLoad& loa
   }
 }
 
-void add_body_load(const Analysis& analysis, const BodyLoad& load, double magnitude, const double* position, double* force) {
+void add_body_load(const Analysis& analysis, const BodyLoad& load, double magnitude, const double* position, double* force,
+                   CarriedGravity carried) {
   const auto& share = analysis.loaded_share(load);
   for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
-    if (share[node] != 0.0) {
+    if (share[node] != 0.0 && !is_left_out(analysis, load, node, carried)) {
       const auto addend = body_force(load, magnitude, share[node], position + 4 * node);
       add_rounded(force + 4 * node, {addend[0], addend[1], addend[2]});
     }
@@ -58,14 +64,14 @@ void add_body_load(const Analysis& analysis, const BodyLoad& load, double magnit
 }  // namespace
 
 void add_external_forces(const Analysis& analysis, const Step& step, double step_time, double total_time,
-                         const double* position, const NodalForces& forces, std::vector<Point>& moments) {
+                         const double* position, const NodalForces& forces, std::vector<Point>& moments, CarriedGravity carried) {
   const auto magnitude_of = [&](const auto& load) {
     return load_magnitude(analysis.model, step, load.previous, load.magnitude, load.amplitude, step_time, total_time);
   };
   for (const auto& load : step.concentrated_loads) add_concentrated_load(analysis, load, magnitude_of(load), forces, moments);
   for (const auto& load : step.pressures)
     analysis.pressure_faces[load.surface]->add_forces(magnitude_of(load), position, forces.force);
-  for (const auto& load : step.body_loads) add_body_load(analysis, load, magnitude_of(load), position, forces.force);
+  for (const auto& load : step.body_loads) add_body_load(analysis, load, magnitude_of(load), position, forces.force, carried);
 }
 
 }  // namespace balocco

@@ -18,9 +18,14 @@ bool has_arrived(const Model& model, const BoundaryCondition& condition);
 double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,
                       double step_time, double total_time);
 
+/// Gravity on what rigid bodies carry acts on their nodes, or is left out where a caller gives it to the bodies themselves.
+enum class CarriedGravity { on_nodes, left_out };
+bool is_left_out(const Analysis& analysis, const BodyLoad& load, std::int32_t local_node, CarriedGravity carried);
+
 /// Adds concentrated loads and moments (owners only), pressure and body loads at `step_time` to `forces` (rounded), and moments on
 /// reference nodes to `moments` (per rigid body; every rank computes the same).
 void add_external_forces(const Analysis& analysis, const Step& step, double step_time, double total_time,
-                         const double* position, const NodalForces& forces, std::vector<Point>& moments);
+                         const double* position, const NodalForces& forces, std::vector<Point>& moments,
+                         CarriedGravity carried = CarriedGravity::on_nodes);
 
 }  // namespace balocco
