@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "constraints/rigid_clouds.hpp"
 #include "deck/builder.hpp"
 #include "deck/digest.hpp"
 #include "deck/element_spellings.hpp"
@@ -103,6 +104,7 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
     run_phase(builder, tasks, phase);
   }
   throw_if_wrong(diagnostics, tokens.files);
+  join_rigid_clouds(builder.model);
   auto found = check_model(builder.model);
   if (!found.errors.empty()) {
     found.errors.resize(std::min(found.errors.size(), Diagnostics::greatest_number_of_errors));

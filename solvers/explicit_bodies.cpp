@@ -79,15 +79,18 @@ void RigidDynamics::add_nodes(const Analysis& analysis, std::size_t index) {
     body.reach = std::max(body.reach, std::sqrt(dot(vector(carried.offset), vector(carried.offset))));
     if (const auto node = domain.local_node[carried.node]; node >= 0) add(node, carried.tie && node < domain.turning, carried.offset);
   }
-  body.active = body.nodes.size();
+  body.pushed = body.active = body.nodes.size();
 }
 
-void RigidDynamics::rest_nodes(const std::vector<bool>& touched) {
+void RigidDynamics::rest_nodes(const Uses& uses) {
   for (auto& body : bodies_) {
-    const auto stays = [&](const CarriedNode& carried) {
-      return carried.node == body.reference || touched[carried.node] || carried.turns != carried.oriented;
+    const auto is_pushed = [&](const CarriedNode& carried) {
+      return carried.node == body.reference || uses.pushed[carried.node] || carried.turns != carried.oriented;
     };
-    body.active = static_cast<std::size_t>(std::ranges::stable_partition(body.nodes, stays).begin() - body.nodes.begin());
+    const auto first_asked = std::stable_partition(body.nodes.begin(), body.nodes.end(), is_pushed);
+    const auto is_asked = [&](const CarriedNode& carried) { return uses.asked[carried.node]; };
+    body.pushed = static_cast<std::size_t>(first_asked - body.nodes.begin());
+    body.active = static_cast<std::size_t>(std::stable_partition(first_asked, body.nodes.end(), is_asked) - body.nodes.begin());
   }
 }
 
@@ -175,7 +178,7 @@ bool RigidDynamics::is_held_still(const Analysis& analysis, std::size_t index, c
 void RigidDynamics::add_body_forces(const Analysis& analysis, const NodalForces& forces, std::size_t index,
                                     std::span<ExactSum, 6> sums) const {
   const auto rotation = rotation_matrix(analysis.current.rigid_bodies[index]);
-  for (const auto& [node, owned, turns, oriented, offset] : std::span(bodies_[index].nodes).first(bodies_[index].active)) {
+  for (const auto& [node, owned, turns, oriented, offset] : std::span(bodies_[index].nodes).first(bodies_[index].pushed)) {
     if (!owned) continue;
     if (turns)
       for (int c = 0; c < 3; ++c) sums[3 + c].add(forces.moment[4 * static_cast<std::ptrdiff_t>(node) + c]);

@@ -42,9 +42,13 @@ class RigidDynamics {
   /// masters, of gravity on what the body carries (which nodal forces leave out), and of `moments`; zero for bodies that need none. Collective.
   void sum_forces(const Analysis& analysis, const NodalForces& forces, const std::vector<Point>& moments,
                   const Instant& instant, Which which);
-  /// Nodes on which nothing ever acts between bodies and the rest need not follow their body before somebody looks. `touched`: by local
-  /// node, whether an element, a contact, a load or a constraint may act there.
-  void rest_nodes(const std::vector<bool>& touched);
+  /// By local node, what a step wants of it.
+  struct Uses {
+    std::vector<bool> pushed;  // an element, a contact, a load or damping may act there
+    std::vector<bool> asked;   // so may a constraint, which wants its place and gives its force to the body
+  };
+  /// Nodes of which nothing is wanted need not follow their body before somebody looks.
+  void rest_nodes(const Uses& uses);
   /// Where somebody looks: puts those nodes where their bodies are, with their velocities over the next increment.
   void bring_resting_nodes(Analysis& analysis, double increment) const;
   /// Whether a node that turns has its orientation from a body.
@@ -105,7 +109,7 @@ class RigidDynamics {
     bool is_free = true;                                 // no degree of freedom is prescribed
     Matrix6 free_inverse{};                              // of the inertia of a free body, body frame
     std::vector<CarriedNode> nodes;
-    std::size_t active = 0;  // the first of them; the others rest
+    std::size_t pushed = 0, active = 0;  // numbers of the first of them: those that are pushed, and asked too; the others rest
     Vector6 weight{};        // gravity on what it carries, about the reference node, global
     std::int32_t sum = -1;  // its six sums start at 6 * sum; -1: it needs none in this increment
     // At the current instant, along the degrees of freedom:

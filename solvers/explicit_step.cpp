@@ -102,88 +102,13 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     refuse_massless_restraints(analysis, step, linkages_);
   });
   find_loaded_nodes();
-  bodies_.rest_nodes(touched_nodes());
+  bodies_.rest_nodes(uses_of_nodes());
   list_drifting_nodes();
   if (has_loads_) {
     external_force_ = force_;
     external_moment_ = moment_;
   }
   halo_.emplace(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::step, has_loads_ ? 2 : 1);
-}
-
-void ExplicitStep::refuse_loads_without_inertia() const {
-  const Model& model = analysis_.model;
-  for (const auto& load : step_.concentrated_loads) {
-    const auto node = analysis_.domain.local_node[load.node];
-    if (node < 0) continue;
-    const bool moved_otherwise = analysis_.carrier(node) >= 0 || analysis_.reference_of(node) >= 0 || linkages_.moves(node);
-    if (load.dof < 3 && !moved_otherwise && inverse_.mass[node] == 0.0)
-      throw InputError(
-          fmt::format("{}: error: *CLOAD: node {} has no mass, so that an explicit step cannot move it; give it a "
-                      "MASS element or load a node of an element",
-                      model.where({load.file, load.line}), model.nodes.id[load.node]));
-    const bool turns = analysis_.turning_body(node) >= 0 || gyroscopic_.contains(node) || linkages_.turns(node) ||
-                       (node < analysis_.domain.turning && inverse_.rotary[node] > 0.0);
-    if (load.dof >= 3 && !turns)
-      throw InputError(
-          fmt::format("{}: error: *CLOAD: node {} has no rotary inertia, so that an explicit step cannot turn it; give it a "
-                      "ROTARYI element or load a node of a beam or shell",
-                      model.where({load.file, load.line}), model.nodes.id[load.node]));
-  }
-}
-
-void ExplicitStep::find_loaded_nodes() {
-  std::vector<bool> loaded(static_cast<std::size_t>(analysis_.domain.size()), false);
-  for (const auto& load : step_.concentrated_loads)
-    if (const auto node = analysis_.domain.local_node[load.node]; node >= 0) loaded[node] = true;
-  for (const auto& load : step_.pressures) {
-    const auto& faces = *analysis_.pressure_faces[load.surface];
-    for (std::int32_t face = 0; face < faces.size(); ++face)
-      for (const auto node : faces.nodes(face)) loaded[node] = true;
-  }
-  for (const auto& load : step_.body_loads) {
-    const auto& share = analysis_.loaded_share(load);
-    for (std::size_t node = 0; node < share.size(); ++node)
-      if (share[node] != 0.0 && !is_left_out(analysis_, load, static_cast<std::int32_t>(node), CarriedGravity::left_out)) loaded[node] = true;
-  }
-  has_loads_ = !step_.concentrated_loads.empty() || !step_.pressures.empty() || !step_.body_loads.empty();
-  if (has_loads_)  // what another rank loads arrives through the halo
-    for (const auto& neighbour : analysis_.domain.halo->neighbours())
-      for (const auto node : neighbour.nodes) loaded[node] = true;
-  for (std::size_t node = 0; node < loaded.size(); ++node)
-    if (loaded[node]) loaded_nodes_.push_back(static_cast<std::int32_t>(node));
-  loaded_turning_ = static_cast<std::size_t>(std::ranges::lower_bound(loaded_nodes_, analysis_.domain.turning) - loaded_nodes_.begin());
-}
-
-std::vector<bool> ExplicitStep::touched_nodes() const {
-  const auto& domain = analysis_.domain;
-  std::vector<bool> touched(static_cast<std::size_t>(domain.size()), false);
-  const auto touch = [&](const auto& nodes) {
-    for (const auto node : nodes) touched[node] = true;
-  };
-  touch(loaded_nodes_);
-  for (const auto& neighbour : domain.halo->neighbours()) touch(neighbour.nodes);  // what another rank does there
-  for (const auto& group : analysis_.element_groups)
-    for (std::int32_t element = 0; element < group->size(); ++element)
-      if (group->acts(element)) touch(group->nodes(element));
-  for (const auto& contact : analysis_.contacts) touch(contact.nodes());
-  for (const auto index : analysis_.local_constraints)
-    for (const auto row : analysis_.constraints[index]->nodes()) touched[domain.local_node[row]] = true;
-  for (std::size_t node = 0; node < touched.size(); ++node)
-    if (analysis_.nodal_damping[node] > 0.0 || (node < analysis_.rotary_damping.size() && analysis_.rotary_damping[node] > 0.0)) touched[node] = true;
-  return touched;
-}
-
-/// Runs of nodes that turn, but for those that have their orientation from a body.
-void ExplicitStep::list_drifting_nodes() {
-  const auto oriented = bodies_.orients();
-  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node) {
-    if (!oriented.empty() && oriented[node]) continue;
-    if (!drifting_.empty() && drifting_.back().first + drifting_.back().second == static_cast<std::size_t>(node))
-      ++drifting_.back().second;
-    else
-      drifting_.emplace_back(node, 1);
-  }
 }
 
 Instant ExplicitStep::instant() const {

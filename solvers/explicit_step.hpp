@@ -73,8 +73,8 @@ class ExplicitStep {
   void add_elements(Portion portion);
   void refuse_loads_without_inertia() const;
   void find_loaded_nodes();
-  /// Local nodes on which anything may act in this step, on any rank.
-  std::vector<bool> touched_nodes() const;
+  /// Of any rank.
+  RigidDynamics::Uses uses_of_nodes() const;
   void list_drifting_nodes();
   NodalForces forces() { return {force_.data(), moment_.data()}; }
   std::span<const std::int32_t> loaded_turning_nodes() const { return std::span(loaded_nodes_).first(loaded_turning_); }
