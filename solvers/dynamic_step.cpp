@@ -67,7 +67,7 @@ void DynamicStep::find_velocities() {
     std::ranges::fill(state.angular_velocity, 0.0);
     for (auto& body : state.rigid_bodies) body.velocity = body.angular_velocity = {};
   }
-  if (!state.dynamic) apply_initial_velocities(analysis_);
+  if (!state.dynamic) apply_initial_velocities(analysis_, step_, observer_);
   using Kind = BoundaryCondition::Kind;
   for (const auto& motion : drive_.motions) {
     if (system_.map().role(motion.slot) != ImplicitDofMap::Role::prescribed) continue;

@@ -133,7 +133,7 @@ void ExplicitStep::prepare_start() {
     rotation_constraints_.refuse_jumps(analysis_);
     bodies_.refuse_jumps(analysis_);
   });
-  if (!state.dynamic) apply_initial_velocities(analysis_);
+  if (!state.dynamic) apply_initial_velocities(analysis_, step_, observer_);
   if (!state.dynamic || follows_static) {
     constraints_.set_initial_velocities(analysis_, step_, instant());
     rotation_constraints_.set_initial_velocities(analysis_, step_, instant());

@@ -240,9 +240,12 @@ void add_hub_inertia(const RimSpec& rim, std::int32_t hub, Model& model) {
 
 }  // namespace
 
+double rolling_radius(const TyreSpec& spec, double outer_radius, double load) {
+  return spec.rolling.rolling_radius.value_or(outer_radius - load / spec.statics.expected_stiffness / 3.0);
+}
+
 double rolling_radius(const TyreSpec& spec, const TyreSection& section) {
-  return spec.rolling.rolling_radius.value_or(section.outer_radius() -
-                                              spec.statics.load / spec.statics.expected_stiffness / 3.0);
+  return rolling_radius(spec, section.outer_radius(), spec.statics.load);
 }
 
 WheelAndRoad add_rim_and_road(const TyreSpec& spec, const TyreSection& section, const TyreMesh& mesh, Model& model) {

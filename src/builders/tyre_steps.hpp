@@ -21,6 +21,7 @@ void add_steps(const TyreSpec& spec, const TyreSection& section, const TyreMesh&
 
 /// Radius on which the wheel is expected to roll, mm: as described, or free radius less a third of the expected
 /// deflection.
-double rolling_radius(const TyreSpec& spec, const TyreSection& section);
+double rolling_radius(const TyreSpec& spec, double outer_radius, double load);
+double rolling_radius(const TyreSpec& spec, const TyreSection& section);  // under the load of its static steps
 
 }  // namespace balocco

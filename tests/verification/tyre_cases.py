@@ -74,6 +74,20 @@ def rolling_on_membranes(balocco, ranks, folder):
     rolling(balocco, ranks, folder, model="1")
 
 
+def rolling_start(balocco, ranks, folder):
+    """Rolling starts as it goes on: nodes run through the loaded shape, so that the patch neither hits the road nor slips on it. Spun
+    rigidly the tyre presses with up to 1.4 times its load at once and is braked with a third of it."""
+    changes = {"sectors": "60", "settle_duration": "1.0", "duration": "0.1", "obstacle_start": "600.0", "history_interval": "0.02"}
+    results, log = run(balocco, ranks, folder, changes)
+    assert re.search(r"it rolls about \(0, 0, 0\); (\d+) of \d+ nodes run through its loaded shape", log), log
+    forces = step(results, "SETTLE")["history/contact_TREAD_ROAD_SURFACE"]
+    load, grip = forces["CFN"][:, 2], forces["CFT"][:, 0]
+    windows = load[1:51].reshape(5, -1).mean(axis=1)
+    check("largest mean load of 0.2 ms against static load", np.max(np.abs(windows / load[0] - 1.0)), 0.05)
+    check("longitudinal force of rolling against the load", np.max(np.abs(grip[1:51].reshape(5, -1).mean(axis=1))) / load[0], 0.03)
+
+
 if __name__ == "__main__":
     case, balocco, ranks, folder = sys.argv[1:]
-    {"at_rest": at_rest, "rolling": rolling, "rolling_on_membranes": rolling_on_membranes}[case](balocco, ranks, folder)
+    {"at_rest": at_rest, "rolling": rolling, "rolling_on_membranes": rolling_on_membranes,
+     "rolling_start": rolling_start}[case](balocco, ranks, folder)

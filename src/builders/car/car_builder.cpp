@@ -80,7 +80,7 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   car.car = deck.text();
   DeckText equilibrium, drive;
   write_equilibrium(spec, tyre, facts, equilibrium);
-  write_drive(spec, tyre, drive);
+  write_drive(spec, tyre, facts, wheel_loads(spec, weights, facts.mass), drive);
   car.equilibrium = equilibrium.text();
   car.drive = drive.text();
   car.report = car_report(spec, mesh, welds) + fmt::format("  sprung weight on the springs of a front wheel {:.0f} N, of a rear wheel {:.0f} N\n", weights.front, weights.rear);

@@ -1,6 +1,6 @@
 #include "builders/car/car_steps.hpp"
 
-#include "builders/car/suspension.hpp"
+#include "builders/tyre_steps.hpp"
 
 namespace balocco::car {
 namespace {
@@ -79,11 +79,10 @@ class StepText {
     end();
   }
 
-  /// The wheels are braked; all else of the car is held by friction alone.
+  /// Free wheels let the car roll along: that alone is held, and hardly pulls; all else is held by friction.
   void stand() {
     begin("STAND", 0.1, 0.25);
-    deck_.line("*BOUNDARY, OP=NEW");
-    hold_hubs(5, 5);
+    deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 1", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
     hold_roads(rise());
     inflate(tyre_.statics.pressure);
     weight();
@@ -153,14 +152,15 @@ void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFact
   steps.stand();
 }
 
-void write_drive(const CarSpec& spec, const TyreSpec& tyre, DeckText& deck) {
+void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, const CornerWeights& loads, DeckText& deck) {
   const auto& drive = spec.chassis.drive;
   deck.chapter("DRIVE: the roads run, the car is free");
   const auto centres = wheel_centres(spec);
   for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
     const auto& at = centres[wheel];
     deck.line("*NSET, NSET=WHEEL_{}\nTYRE_{}, HUB_{}", wheel_names[wheel], wheel_names[wheel], wheel_names[wheel]);
-    deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.", wheel_names[wheel], drive.speed / drive.rolling_radius);
+    const double radius = rolling_radius(tyre, facts.outer_radius, wheel < 2 ? loads.front : loads.rear);
+    deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.", wheel_names[wheel], drive.speed / radius);
     deck.line("{:g}, {:g}, {:g}, {:g}, {:g}, {:g}", at[0], at[1], at[2], at[0], at[1] + 1.0, at[2]);  // two points of the axis
   }
   for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -drive.speed);

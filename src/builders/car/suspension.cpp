@@ -115,6 +115,12 @@ CornerWeights corner_weights(const CarSpec& spec, const Inertia& sprung) {
   return {.front = 0.5 * weight * (1.0 - behind), .rear = 0.5 * weight * behind};
 }
 
+CornerWeights wheel_loads(const CarSpec& spec, const CornerWeights& sprung, double tyre_mass) {
+  const auto& [front, rear, engine, road, drive] = spec.chassis;
+  return {.front = sprung.front + gravity * (front.arm.mass + front.knuckle.mass + front.hub.mass + tyre_mass),
+          .rear = sprung.rear + gravity * (rear.arm.mass + rear.wheel_hub.mass + tyre_mass)};
+}
+
 void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, DeckText& deck) {
   const auto& front = spec.chassis.front;
   const Vector lower = hard_point(spec, front.strut_lower), top = spec.body.strut_top;

@@ -6,7 +6,7 @@
 
 namespace balocco::car {
 
-/// Sprung weight on one wheel of each axle, N.
+/// Load of one wheel of each axle, N.
 struct CornerWeights {
   double front = 0.0, rear = 0.0;
 };
@@ -14,6 +14,8 @@ struct CornerWeights {
 /// Everything that the springs carry: body, masses, engine, subframe.
 Inertia sprung_mass(const CarSpec& spec, const BodyMesh& mesh);
 CornerWeights corner_weights(const CarSpec& spec, const Inertia& sprung);
+/// On the road below a wheel: with all that moves with the wheel.
+CornerWeights wheel_loads(const CarSpec& spec, const CornerWeights& sprung, double tyre_mass);
 
 /// Places of the wheels' centres at design height, as wheel_names.
 std::array<Vector, 4> wheel_centres(const CarSpec& spec);

@@ -100,7 +100,6 @@ void read_engine(SpecTable& top, EngineSpec& engine) {
 void read_drive(SpecTable& top, DriveSpec& drive) {
   auto table = top.table("drive");
   drive.speed = table.number("speed", Bounds::positive("mm/ms"));
-  drive.rolling_radius = table.number("rolling_radius", Bounds::positive("mm"));
   drive.duration = table.number("duration", Bounds::positive("ms"));
   drive.frames = table.integer("frames", 1, 100000);
   drive.history_interval = table.number("history_interval", Bounds::positive("ms"));

@@ -51,7 +51,7 @@ struct EngineSpec {
 };
 
 struct DriveSpec {
-  double speed = 0.0, rolling_radius = 0.0;       // mm/ms, mm of the loaded tyres
+  double speed = 0.0;                             // mm/ms
   double duration = 0.0, history_interval = 0.0;  // ms
   int frames = 0;
 };
