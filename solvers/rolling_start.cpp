@@ -35,7 +35,6 @@ std::vector<Cylindrical> about(const std::vector<Vector3<double>>& points, const
 }
 
 /// Numbers the runs of `order` in which a value grows by no more than a tolerance from one to the next, within runs of `outer`.
-
 template <class Value>
 std::vector<std::size_t> runs(const Order& order, const std::vector<std::size_t>& outer, double tolerance, Value value) {
   std::vector<std::size_t> run(order.size(), 0);

@@ -1,4 +1,4 @@
-"""How a car stands: what its wheels carry, where its wheels and mounts came to rest, what its springs push.
+"""How a car stands: what its wheels carry, where its wheels and mounts came to rest, what its springs push, how it rides.
 
 usage: car_equilibrium.py CAR.h5
 """
@@ -6,18 +6,43 @@ usage: car_equilibrium.py CAR.h5
 import sys
 
 import h5py
+import numpy as np
 
 WHEELS = ("FRONT_LEFT", "FRONT_RIGHT", "REAR_LEFT", "REAR_RIGHT")
 MOUNTS = ("STRUT_MOUNT_FRONT_LEFT", "STRUT_MOUNT_FRONT_RIGHT", "SPRING_SEAT_REAR_LEFT", "SPRING_SEAT_REAR_RIGHT")
 
 
 def last_step(file):
-    return file[max((name for name in file if name.startswith("step_")), key=lambda name: int(name[5:]))]
+    return file[max((name for name in file if name.startswith("step_") and "history" in file[name]), key=lambda name: int(name[5:]))]
 
 
 def last(file, name, variable):
     node = file["mesh/node/id"][file[f"mesh/set/node/{name}"][0]]
     return last_step(file)[f"history/node_{node}/{variable}"][-1]
+
+
+def ride(file):
+    """(frequency in Hz, what moves) of modes in which the body goes up and down on its springs, or wheels do under it."""
+    rows = lambda names: [file[f"mesh/set/node/{name}"][0] for name in names]
+    hubs, mounts = rows("HUB_" + wheel for wheel in WHEELS), rows(MOUNTS)
+    modes = [group[name] for group in file.values() for name in group if name.startswith("mode_")]
+    found = []
+    for mode in sorted(modes, key=lambda mode: mode.attrs["eigenvalue"]):
+        up = lambda nodes: mode["node/U"][:][nodes, 2]
+        wheels, body = up(hubs), up(mounts)
+        size = max(np.abs(wheels).max(), np.abs(body).max())
+        kind = None
+        if np.abs(body).max() > 0.3 and np.abs(wheels).max() < 0.3 * np.abs(body).max():
+            left, right = body[[0, 2]], body[[1, 3]]
+            if np.abs(left - right).max() < 0.1 * size:
+                kind = "body: front %+.2f, rear %+.2f" % tuple(body[[0, 2]])
+            elif np.abs(left + right).max() < 0.1 * size:
+                kind = "body rolls"
+        elif size > 0.5 and np.abs(body).max() < 0.1 * size:
+            kind = "hop: " + ", ".join("%s %+.2f" % (wheel.lower(), value) for wheel, value in zip(WHEELS, wheels) if abs(value) > 0.2)
+        if kind:
+            found.append((1000.0 * mode.attrs["frequency"], kind))
+    return found
 
 
 def main():
@@ -34,6 +59,8 @@ def main():
     print(f"wheels together {sum(loads.values()):.3f} N, roads hold {abs(roads):.3f} N")
     for mount in MOUNTS:
         print(f"mount {mount:<24} moved {last(file, mount, 'U')[2]:+7.2f} mm up")
+    for frequency, kind in ride(file):
+        print(f"mode at {frequency:6.2f} Hz   {kind}")
 
 
 if __name__ == "__main__":

@@ -90,6 +90,9 @@ class StepText {
     end();
   }
 
+  /// How it bounces, pitches and rolls on its springs, and its wheels hop on their tyres.
+  void ride() { deck_.line("**\n*STEP, NAME=RIDE, PERTURBATION\n*FREQUENCY\n30\n*END STEP"); }
+
  private:
   double rise() const { return facts_.outer_radius + spec_.chassis.road.clearance - spec_.profile.wheel_height; }
 
@@ -150,6 +153,7 @@ void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFact
   steps.weigh();
   steps.touch();
   steps.stand();
+  steps.ride();
 }
 
 void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, const CornerWeights& loads, DeckText& deck) {
