@@ -5,6 +5,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "constraints/rigid_body.hpp"
 #include "constraints/rigid_clouds.hpp"
 #include "deck/builder.hpp"
 #include "deck/digest.hpp"
@@ -110,6 +111,7 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
     found.errors.resize(std::min(found.errors.size(), Diagnostics::greatest_number_of_errors));
     throw InputError(std::move(found.errors));
   }
+  place_reference_nodes(builder.model);
   finish_shells(builder);
   check_hybrids(builder);
   throw_if_wrong(diagnostics, tokens.files);

@@ -97,12 +97,16 @@ void rotate(RigidBodyState& body, const Point& spin) {
   for (int i = 0; i < 3; ++i) body.rotation[i] += spin[i];
 }
 
+void place_reference_nodes(Model& model) {
+  for (const RigidBody& body : model.rigid_bodies)
+    if (body.at_center_of_mass) model.nodes.coordinates[body.reference_node] = center_of_mass(model, body);
+}
+
 std::vector<RigidBodyState> initial_rigid_bodies(const Model& model) {
   std::vector<RigidBodyState> states;
   for (const RigidBody& body : model.rigid_bodies) {
     RigidBodyState state;
-    state.position =
-        body.at_center_of_mass ? center_of_mass(model, body) : model.nodes.coordinates[body.reference_node];
+    state.position = model.nodes.coordinates[body.reference_node];
     for (const auto& [row, tie] : carried_nodes(model, body)) attach(state, row, tie, model.nodes.coordinates[row]);
     states.push_back(std::move(state));
   }

@@ -16,6 +16,10 @@ Point rigid_arm(const Matrix3<double>& rotation, const RigidNode& node);
 /// Turns a body by the rotation vector `spin` (global directions, applied on the left) and keeps its quaternion unit.
 void rotate(RigidBodyState& body, const Point& spin);
 
+/// Moves the reference nodes of bodies with POSITION=CENTER OF MASS to their centres of mass: from there all displacements count.
+/// @throws InputError for a body without mass.
+void place_reference_nodes(Model& model);
+
 /// Bodies of the undeformed model, with the nodes that they carry from the start.
 std::vector<RigidBodyState> initial_rigid_bodies(const Model& model);
 

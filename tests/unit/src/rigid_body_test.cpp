@@ -136,6 +136,8 @@ TEST(RigidBody, ReferenceNodeMovesToTheCenterOfMass) {
   body.at_center_of_mass = true;
   body.elements = {{0, 0}, {0, 1}, {0, 2}};
   model.rigid_bodies.push_back(body);
+  place_reference_nodes(model);
+  EXPECT_EQ(model.nodes.coordinates[0], (Point{1, 1, 0}));
   const auto states = initial_rigid_bodies(model);
   EXPECT_EQ(states[0].position, (Point{1, 1, 0}));  // (1 * 0 + 1 * 4 + 2 * 0) / 4, (2 * 2) / 4
   ASSERT_EQ(states[0].nodes.size(), 3u);
@@ -150,7 +152,7 @@ TEST(RigidBody, CenterOfMassWithoutMassIsRefused) {
   body.location = {0, 12};
   model.rigid_bodies.push_back(body);
   try {
-    initial_rigid_bodies(model);
+    place_reference_nodes(model);
     FAIL() << "accepted";
   } catch (const InputError& error) {
     EXPECT_NE(std::string(error.what()).find("job.inp:12: error: *RIGID BODY: POSITION=CENTER OF MASS"),
