@@ -16,6 +16,7 @@
 #include "deck/tokens.hpp"
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
+#include "model/implied_joints.hpp"
 
 namespace balocco {
 
@@ -105,6 +106,7 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
     run_phase(builder, tasks, phase);
   }
   throw_if_wrong(diagnostics, tokens.files);
+  const auto implied = drop_implied_joints(builder.model);
   join_rigid_clouds(builder.model);
   auto found = check_model(builder.model);
   if (!found.errors.empty()) {
@@ -119,6 +121,7 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
   throw_if_wrong(diagnostics, tokens.files);
   auto warnings = diagnostics.warnings(tokens.files);
   warnings.insert(warnings.end(), found.warnings.begin(), found.warnings.end());
+  if (implied) warnings.push_back(*implied);
   trim(builder.model);
   return {std::move(builder.model), std::move(warnings)};
 }

@@ -25,7 +25,7 @@ struct ReadOptions {
 
 struct ReadResult {
   Model model;
-  std::vector<std::string> warnings;  // "FILE:LINE: warning: *KEYWORD: ..."
+  std::vector<std::string> warnings;  // "FILE:LINE: warning: *KEYWORD: ...", and notes
 };
 
 /// @throws InputError with up to 20 messages, sorted by file and line.

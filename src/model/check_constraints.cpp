@@ -37,7 +37,7 @@ std::vector<std::pair<Location, std::string>> check_constraints(const Model& mod
                                       "step EXPLICIT, or remove them",
                                       definition.keyword));
     const auto* joint = std::get_if<Joint>(&definition.kind);
-    if (joint == nullptr) continue;
+    if (joint == nullptr || definition.element.table < 0) continue;
     const auto first = body_of.find(joint->nodes[0]), second = body_of.find(joint->nodes[1]);
     if (first == body_of.end() || second == body_of.end() || first->second != second->second) continue;
     errors.emplace_back(Location{definition.file, definition.line},

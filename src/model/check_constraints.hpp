@@ -9,7 +9,7 @@
 
 namespace balocco {
 
-/// Joints between nodes of one rigid body, which nothing can move.
+/// Connectors between nodes of one rigid body, which nothing can move.
 std::vector<std::pair<Location, std::string>> check_constraints(const Model& model);
 
 }  // namespace balocco

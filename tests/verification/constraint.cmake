@@ -1,5 +1,5 @@
 # Constraints, joints and couplings against closed forms and fine integrations, in both procedures, on one rank and on more.
-foreach(case masses_on_links falling_chain carousel thrown_plate four_bar universal_joint coupled_tip turned_coupling equations tied_blocks welded_sheets rest_with_constraints same_bits springs_on_an_arm)
+foreach(case masses_on_links falling_chain carousel thrown_plate four_bar universal_joint coupled_tip turned_coupling equations tied_blocks welded_sheets rest_with_constraints same_bits springs_on_an_arm plates_made_rigid)
   add_test(NAME constraint_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/constraint_cases.py ${case} $<TARGET_FILE:balocco>
                    ${CMAKE_CURRENT_BINARY_DIR}/constraint_${case})

@@ -568,6 +568,63 @@ HELD, 1, 6
         check("moment on the held node", np.abs(np.abs(moment) - np.abs(expected)).max(), 0.0, 1e-6 * np.abs(expected).max())
 
 
+PLATES = """*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 1., 1., 0.
+4, 0., 1., 0.
+5, 0., 0., 0.1
+6, 1., 0., 0.1
+7, 1., 1., 0.1
+8, 0., 1., 0.1
+9, 5., 0., 0.
+11, 2., 0., 0.
+*ELEMENT, TYPE=S4R, ELSET=PLATES
+1, 1, 2, 3, 4
+2, 5, 6, 7, 8
+*SHELL SECTION, ELSET=PLATES, MATERIAL=SHEET
+0.1
+*MATERIAL, NAME=SHEET
+*DENSITY
+1.
+*ELASTIC
+1000., 0.3
+*MPC
+BEAM, 5, 1
+BEAM, 7, 3
+*RIGID BODY, REF NODE=9, ELSET=PLATES, POSITION=CENTER OF MASS
+*ELEMENT, TYPE=SPRINGA, ELSET=SPRING
+3, 2, 11
+*SPRING, ELSET=SPRING
+
+1.
+*BOUNDARY
+11, 1, 3
+*NSET, NSET=SEEN
+2, 9
+"""
+
+
+def plates_made_rigid(run):
+    """Welded plates that one line makes rigid. Displacements count from the centre of mass: held there nothing moves, and the plates
+    turn about it; let go in an explicit step they oscillate on a spring."""
+    output = "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=SEEN\nU\n*END STEP\n"
+    angle = 0.1
+    turned = ((0.5 * math.cos(angle) + 0.5 * math.sin(angle), 0.5 * math.sin(angle) - 0.5 * math.cos(angle), 0.0) - np.array((0.5, -0.5, 0.0)))
+    for ranks in (1, 2):
+        held = run(PLATES + f"*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n9, 1, 6\n{output}", ranks)
+        check("a held body stays", np.abs(held.history("node_2", "U")[1]).max(), 0.0, 1e-14)
+        job = run(PLATES + f"*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n9, 1, 5\n9, 6, 6, {angle}\n{output}", ranks)
+        check("it turns about its centre of mass", np.abs(job.history("node_2", "U")[1][-1] - turned).max(), 0.0, 1e-12)
+        check("which stays", np.abs(job.history("node_9", "U")[1]).max(), 0.0, 1e-14)
+    motion = "*BOUNDARY\n9, 2, 6\n*INITIAL CONDITIONS, TYPE=VELOCITY\nSEEN, 1, 0.01\n"
+    job = run(PLATES + motion + explicit_step(1e-3, 2.0, "", output.removesuffix("*END STEP\n")), 2)
+    time, moved = job.history("node_9", "U")
+    frequency = math.sqrt(1.0 / (2 * 0.1))  # spring of 1, plates of 0.1 each
+    check("the welded plates swing", np.abs(moved[:, 0] - 0.01 / frequency * np.sin(frequency * time)).max(), 0.0, 2e-8)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (masses_on_links, falling_chain, carousel, thrown_plate, four_bar, universal_joint, coupled_tip, turned_coupling,
-                                               equations, tied_blocks, welded_sheets, rest_with_constraints, same_bits, springs_on_an_arm)})
+    run_case({case.__name__: case for case in (masses_on_links, falling_chain, carousel, thrown_plate, four_bar, universal_joint, coupled_tip,
+                                               turned_coupling, equations, tied_blocks, welded_sheets, rest_with_constraints, same_bits,
+                                               springs_on_an_arm, plates_made_rigid)})

@@ -99,12 +99,10 @@ void write_body(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   deck.line("*ELSET, ELSET=BODY");
   for (const auto& part : mesh.parts()) deck.line("{}", part.name);
   deck.chapter("SPOT WELDS: the first node carries the others; each weld is a small system of its own");
-  if (spec.fidelity != "rigid") deck.line("*MPC");
+  deck.line("*MPC");
   for (auto weld : mesh.welds()) {
-    // Within one rigid body nothing is left to weld: of its nodes one stays, and comes first.
-    const auto rigid = std::ranges::stable_partition(weld, [&](int node) { return is_rigid(spec, mesh.part_of(node)); });
-    const auto inside = weld.size() - rigid.size();
-    if (inside > 1) weld.erase(weld.begin() + 1, weld.begin() + static_cast<std::ptrdiff_t>(inside));
+    // A rigid node carries the others, so that nothing joins two of them by way of one that is not.
+    std::ranges::stable_partition(weld, [&](int node) { return is_rigid(spec, mesh.part_of(node)); });
     for (std::size_t i = 1; i < weld.size(); ++i) deck.line("BEAM, {}, {}", weld[i] + 1, weld[0] + 1);
   }
 }

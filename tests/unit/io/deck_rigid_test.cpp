@@ -1,0 +1,52 @@
+#include <gtest/gtest.h>
+
+#include "deck_support.hpp"
+
+namespace balocco {
+namespace {
+
+using test::brick;
+using test::read;
+
+/// Far nodes 21 to 24, and a brick whose nodes move with node 20.
+const std::string welded =
+    brick + "*NODE\n20, 0.5, 0.5, 3\n21, 2, 0, 0\n22, 2, 0, 0\n23, 3, 0, 0\n24, 3, 0, 0\n*NSET, NSET=FAR\n21, 22, 23\n";
+const std::string tied = "*RIGID BODY, REF NODE=20, ELSET=ALL, TIE NSET=FAR\n";
+const std::string step = "*STEP\n*STATIC\n*BOUNDARY\n20, 1, 6\n*END STEP\n";
+
+TEST(DeckRigidBody, TheReferenceNodeMovesToTheCentreOfMass) {
+  const auto model = read(welded + "*RIGID BODY, REF NODE=20, ELSET=ALL, POSITION=CENTER OF MASS\n" + step).model;
+  const auto reference = model.rigid_bodies[0].reference_node;
+  for (const double x : model.nodes.coordinates[reference]) EXPECT_NEAR(x, 0.5, 1e-15);
+}
+
+TEST(DeckRigidBody, JointsWithinABodyAreLeftOutWithANote) {
+  const auto [model, warnings] = read(welded + tied + "*MPC\nBEAM, 22, 21\nBEAM, 21, 20\nBEAM, 24, 23\nBEAM, 1, 2\n" + step);
+  ASSERT_EQ(model.constraints.size(), 1u);
+  EXPECT_EQ(model.node_name(std::get<Joint>(model.constraints[0].kind).nodes[1]), "24");
+  ASSERT_FALSE(warnings.empty());
+  EXPECT_NE(warnings.back().find("note: *MPC: nodes 21 and 22 move as one with the rigid body of reference node 20; this joint "
+                                 "is left out, and 2 others for the same reason"),
+            std::string::npos)
+      << warnings.back();
+}
+
+TEST(DeckRigidBody, JointsOfNodesThatAreOnlyPinnedOrLetGoStay) {
+  const std::string weld = "*MPC\nBEAM, 22, 21\n", pinned = "*RIGID BODY, REF NODE=20, ELSET=ALL, PIN NSET=FAR\n";
+  EXPECT_EQ(read(welded + pinned + weld + step).model.constraints.size(), 1u);
+  const std::string release = "*STEP\n*STATIC\n*RIGID BODY, REF NODE=20, RELEASE NSET=FAR\n*BOUNDARY\n20, 1, 6\n*END STEP\n";
+  EXPECT_EQ(read(welded + tied + weld + release).model.constraints.size(), 1u);
+}
+
+TEST(DeckRigidBody, WhatFollowsAJointFindsItWhereOthersAreLeftOut) {
+  const auto model = read(welded + "*RIGID BODY, REF NODE=20, ELSET=ALL\n*MPC\nBEAM, 1, 2\n"
+                          "*ORIENTATION, NAME=O\n1., 0., 0., 0., 1., 0.\n"
+                          "*ELEMENT, TYPE=CONN3D2, ELSET=LEG\n2, 21, 23\n"
+                          "*CONNECTOR BEHAVIOR, NAME=STOPS\n*CONNECTOR STOP, COMPONENT=1\n-1., 2.\n"
+                          "*CONNECTOR SECTION, ELSET=LEG, BEHAVIOR=STOPS\nTRANSLATOR\nO\n" + step).model;
+  ASSERT_EQ(model.constraints.size(), 2u);
+  EXPECT_EQ(std::get<Guide>(model.constraints[1].kind).joint, 0);
+}
+
+}  // namespace
+}  // namespace balocco
