@@ -24,7 +24,7 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 7;
+constexpr std::int64_t format_version = 8;
 
 ParallelFile::Layout plain_layout(int columns) {
   return {{static_cast<hsize_t>(columns)}, ParallelFile::Precision::double_, false};
@@ -63,14 +63,12 @@ void write_tables(ParallelFile& file, const Model& model, const Communicator& co
   if (communicator.any(!state.alpha_memory.empty()))
     write("alpha_memory", nodes.exchange, alpha_memories_of(state, nodes.nodes), alpha_values);
   std::vector<double> work(nodes.nodes.size() * work_values, 0.0);
-  for (std::size_t i = 0; i < nodes.nodes.size() && !state.nodal_work.empty(); ++i) {
-    const NodalWork& done = state.nodal_work[nodes.nodes[i]];
-    work[i * work_values] = done.external;
-    work[i * work_values + 1] = done.damping;
-    work[i * work_values + 2] = done.friction;
-  }
+  for (std::size_t i = 0; i < nodes.nodes.size() && !state.nodal_work.empty(); ++i)
+    std::ranges::copy(pack(state.nodal_work[nodes.nodes[i]]), work.begin() + static_cast<std::ptrdiff_t>(i * work_values));
   write("work", nodes.exchange, std::move(work), work_values);
+  const bool scaled = communicator.any(std::ranges::any_of(state.mass_scale, [](const auto& scale) { return !scale.empty(); }));
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
+    if (scaled) write(mass_scale_path(model.elements[rows.table].type->name), rows.exchange, mass_scales_of(rows, state), 1);
     const int columns = history_columns(rows, communicator);
     if (columns > 0) write(history_path(model.elements[rows.table].type->name), rows.exchange, histories_of(rows, state, columns), columns);
   }
@@ -167,6 +165,7 @@ void write_header(const std::string& path, const Model& model, const State& stat
   file.set_attribute("/", "least_stable", state.least_stable);
   file.set_attribute("/", "restraint_omega_square", state.restraint_omega_square);
   file.set_attribute("/", "restraint_rate", state.restraint_rate);
+  file.set_attribute("/", "restraint_increment", state.restraint_increment);
   file.set_attribute("/", "format", std::string("balocco checkpoint"));
   file.close();
 }
@@ -205,6 +204,7 @@ void read_header(const Hdf5File& file, const std::string& path, const Model& mod
   state.least_stable = file.number_attribute("/", "least_stable");
   state.restraint_omega_square = file.number_attribute("/", "restraint_omega_square");
   state.restraint_rate = file.number_attribute("/", "restraint_rate");
+  state.restraint_increment = file.number_attribute("/", "restraint_increment");
 }
 
 void read_bodies(const Hdf5File& file, State& state) {
@@ -229,8 +229,9 @@ void read_body_memories(const Hdf5File& file, State& state) {
   for (std::size_t at = 0; at < memories.size(); at += 6) state.alpha_memory_of_bodies.push_back(unpack_alpha(&memories[at]));
 }
 
+/// `scaled`: the file has mass scales.
 void read_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
-                 ElementGroups groups, State& state) {
+                 ElementGroups groups, bool scaled, State& state) {
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::all);
   const auto read = [&](const std::string& name, const RowExchange& exchange, int columns) {
     return exchange.from_slab(file.read(name, exchange, columns), columns);
@@ -241,11 +242,12 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
   if (communicator.any(domain.turning > 0)) set_rotations(nodes.nodes, read("rotation", nodes.exchange, rotation_values), state);
   const auto work = read("work", nodes.exchange, work_values);
   state.nodal_work.resize(std::max(state.nodal_work.size(), count));
-  for (std::size_t i = 0; i < nodes.nodes.size(); ++i) {
-    state.nodal_work[nodes.nodes[i]] = {work[i * work_values], work[i * work_values + 1], work[i * work_values + 2]};
-  }
+  for (std::size_t i = 0; i < nodes.nodes.size(); ++i) state.nodal_work[nodes.nodes[i]] = unpack_work(&work[i * work_values]);
   state.element_history.resize(groups.size());
+  state.mass_scale.resize(groups.size());
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
+    if (const auto path = mass_scale_path(model.elements[rows.table].type->name); scaled)
+      set_mass_scales(rows, read(path, rows.exchange, 1), state);
     const int columns = history_columns(rows, communicator);
     if (columns > 0) set_histories(rows, read(history_path(model.elements[rows.table].type->name), rows.exchange, columns), columns, state);
   }
@@ -263,23 +265,31 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
 /// `header`: which of the functions above reads what belongs to no table.
 void read_all(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain, ElementGroups groups,
               State& state, void (*header)(const Hdf5File&, const std::string&, const Model&, State&)) {
-  bool has_alpha_memory = false;
+  bool has_alpha_memory = false, scaled = false;
   communicator.together([&] {
     const auto file = open_checkpoint(path);
     header(*file, path, model, state);
     read_bodies(*file, state);
     read_body_memories(*file, state);
     has_alpha_memory = file->exists("/alpha_memory");
+    scaled = has_mass_scales(*file, model);
     read_constraint_rows(*file, state);
   });
   ParallelFile file(path, communicator, ParallelFile::Mode::read);
-  read_tables(file, model, communicator, domain, groups, state);
+  read_tables(file, model, communicator, domain, groups, scaled, state);
   if (!has_alpha_memory) return;
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::all);
   set_alpha_memories(nodes.nodes, nodes.exchange.from_slab(file.read("alpha_memory", nodes.exchange, alpha_values), alpha_values), domain, state);
 }
 
 }  // namespace
+
+std::string mass_scale_path(const std::string& element_type) { return "mass_scale_" + element_type; }
+
+bool has_mass_scales(const Hdf5File& file, const Model& model) {
+  return std::ranges::any_of(model.elements,
+                             [&](const auto& table) { return file.exists("/" + mass_scale_path(table.type->name)); });
+}
 
 std::string history_path(const std::string& element_type) { return "history_" + element_type; }
 
@@ -322,6 +332,7 @@ void write_checkpoint(const std::string& path, const Model& model, const Communi
 void import_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
                        ElementGroups groups, State& state) {
   read_all(path, model, communicator, domain, groups, state, read_foreign_header);
+  for (auto& scale : state.mass_scale) scale.clear();
 }
 
 void read_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,

@@ -23,8 +23,9 @@ void write_checkpoint(const std::string& path, const Model& model, const Communi
 void read_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
                      ElementGroups groups, State& state);
 
-/// The same from the checkpoint of another job with the same model but other steps: `state` stands at the start of this deck's first
-/// step, at time zero. @throws InputError that names the first part of the model that differs.
+/// The same from the checkpoint of another job with the same model but other steps: `state` stands at the start of this deck's
+/// first step, at time zero, and masses count as the model has them. @throws InputError that names the first part of the model that
+/// differs.
 void import_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
                        ElementGroups groups, State& state);
 

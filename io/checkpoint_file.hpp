@@ -5,6 +5,7 @@
 #include <string>
 
 #include "hdf5_file.hpp"
+#include "model/model.hpp"
 
 namespace balocco {
 
@@ -13,5 +14,10 @@ std::unique_ptr<Hdf5File> open_checkpoint(const std::string& path);
 
 /// Name of the dataset with the histories of elements of a type.
 std::string history_path(const std::string& element_type);
+
+/// Name of the dataset with the mass scales of elements of a type, and whether there are any: then those of all types of the file's
+/// model.
+std::string mass_scale_path(const std::string& element_type);
+bool has_mass_scales(const Hdf5File& file, const Model& model);
 
 }  // namespace balocco

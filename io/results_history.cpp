@@ -14,12 +14,13 @@ namespace balocco {
 
 namespace {
 
-constexpr std::array<std::pair<const char*, double EnergyBalance::*>, 10> energy_members{{
+constexpr std::array<std::pair<const char*, double EnergyBalance::*>, 11> energy_members{{
     {"ALLKE", &EnergyBalance::kinetic},
     {"ALLIE", &EnergyBalance::internal},
     {"ALLSE", &EnergyBalance::strain},
     {"ALLPD", &EnergyBalance::plastic},
     {"ALLVD", &EnergyBalance::viscous},
+    {"ALLMW", &EnergyBalance::mass_scaling},
     {"ALLAE", &EnergyBalance::hourglass},
     {"ALLFD", &EnergyBalance::friction},
     {"ALLCW", &EnergyBalance::contact},

@@ -148,8 +148,7 @@ void Importer::read_nodes(ParallelFile& tables) {
   const auto work = read("work", work_values);
   state_.nodal_work.resize(std::max(state_.nodal_work.size(), count));
   for (std::size_t i = 0; i < nodes.size(); ++i)
-    state_.nodal_work[nodes[i]] =
-        {work[i * work_values], work[i * work_values + 1], work[i * work_values + 2]};
+    state_.nodal_work[nodes[i]] = unpack_work(&work[i * work_values]);
 }
 
 /// Padded lanes repeat the last element of their group.

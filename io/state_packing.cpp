@@ -4,6 +4,12 @@
 
 namespace balocco {
 
+std::array<double, work_values> pack(const NodalWork& work) {
+  return {work.external, work.damping, work.friction, work.mass_scaling};
+}
+
+NodalWork unpack_work(const double* v) { return {v[0], v[1], v[2], v[3]}; }
+
 std::array<double, contact_values> pack(const ContactPoint& point) {
   return {point.multiplier, point.closed, point.anchor[0], point.anchor[1], point.anchor[2], point.slip,
           point.frictional_dissipation, point.stiff_spring, point.stiff_force, point.stiff_friction[0], point.stiff_friction[1],
@@ -82,6 +88,24 @@ void set_alpha_memories(const std::vector<std::int32_t>& nodes, std::span<const 
     const auto node = static_cast<std::size_t>(nodes[i]);
     state.alpha_memory[node] = unpack_alpha(values.data() + i * alpha_values);
     if (nodes[i] < domain.turning) state.alpha_memory_of_spins[node] = unpack_alpha(values.data() + i * alpha_values + 6);
+  }
+}
+
+std::vector<double> mass_scales_of(const TableRows& rows, const State& state) {
+  std::vector<double> values;
+  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+    const auto& scale = state.mass_scale[rows.group_index[g]];
+    values.insert(values.end(), scale.begin(), scale.end());
+    if (scale.empty()) values.insert(values.end(), static_cast<std::size_t>(rows.groups[g]->size()), 1.0);
+  }
+  return values;
+}
+
+void set_mass_scales(const TableRows& rows, std::span<const double> values, State& state) {
+  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+    const auto size = static_cast<std::size_t>(rows.groups[g]->size());
+    state.mass_scale[rows.group_index[g]].assign(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(size));
+    values = values.subspan(size);
   }
 }
 

@@ -16,13 +16,15 @@ namespace balocco {
 constexpr int body_values = 16;
 /// Multiplier, closed, anchor 3, slip, frictional dissipation, stiff spring, its force, friction 3, implicit spring.
 constexpr int contact_values = 13;
-/// External, damping, friction.
-constexpr int work_values = 3;
+/// External, damping, friction, mass scaling.
+constexpr int work_values = 4;
 /// What nodes that turn have beside positions and velocities: orientation 4, angular velocity 3, rotation 3.
 constexpr int rotation_values = 10;
 /// What implicit dynamics remember of a node's displacement and of its rotation: acceleration 3 and force 3 each.
 constexpr int alpha_values = 12;
 
+std::array<double, work_values> pack(const NodalWork& work);
+NodalWork unpack_work(const double* values);
 std::array<double, contact_values> pack(const ContactPoint& point);
 ContactPoint unpack_contact(const double* values);
 std::array<double, body_values> pack(const RigidBodyState& body);  // without its nodes
@@ -45,6 +47,10 @@ void pack(const AlphaMemory& memory, Value next) {
 AlphaMemory unpack_alpha(const double* values);
 std::vector<double> alpha_memories_of(const State& state, const std::vector<std::int32_t>& nodes);
 void set_alpha_memories(const std::vector<std::int32_t>& nodes, std::span<const double> values, const Domain& domain, State& state);
+
+/// Mass scales of the elements held in a table: 1 where the state says nothing.
+std::vector<double> mass_scales_of(const TableRows& rows, const State& state);
+void set_mass_scales(const TableRows& rows, std::span<const double> values, State& state);
 
 /// History of the elements held in a table, `columns` an element (shorter histories end in zeros).
 std::vector<double> histories_of(const TableRows& rows, const State& state, int columns);

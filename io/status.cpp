@@ -60,6 +60,9 @@ Status::Status(const std::string& status_path, const std::string& log_path, cons
     if (table.type->make_group != nullptr) element_count_ += table.size();
   }
   for (const Material& material : model.materials) can_fail_ |= find_option(material, "shear-failure") != nullptr;
+  for (const Step& step : model.steps)
+    if (const auto* procedure = std::get_if<ExplicitProcedure>(&step.procedure))
+      scales_masses_ |= !procedure->fixed_mass_scaling.empty() || !procedure->variable_mass_scaling.empty();
   const std::string title = model.heading.empty() ? model.name : fmt::format("{}: {}", model.name, model.heading);
   line(status_, restarted ? "Restarted" : "Balocco " BALOCCO_VERSION ", " + title);
 }
@@ -90,10 +93,11 @@ void Status::start_step(std::int32_t step, const State& state) {
     line(status_, fmt::format("{:>6} {:>6} {:>13} {:>13} {:>13} {:>11} {:>13} {:>13} {:>10}", "INC", "ITERS", "STEP TIME",
                               "TOTAL TIME", "TIME INC", "RESIDUAL", "ALLWK", "ALLIE", "WALL S"));
   } else {
-    line(status_, fmt::format("{:>9} {:>13} {:>13} {:>12} {:>10} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>9} {:>11} {:>9} {:>9} {:>10}",
-                              "INC", "STEP TIME", "TOTAL TIME", "TIME INC", "ELEMENT", "ALLKE", "ALLIE", "ALLAE", "ALLCW", "ALLWK",
-                              "ETOTAL", "ERROR %", "PENETRATION", "WALL S", "LEFT S", "ELEM/S") +
-                      (can_fail_ ? fmt::format(" {:>9}", "DELETED") : ""));
+    line(status_,
+         fmt::format("{:>9} {:>13} {:>13} {:>12} {:>10} {:>12} {:>12} {:>12} {:>12} {:>12} {:>12} {:>9} {:>11} {:>9} {:>9} {:>10}",
+                     "INC", "STEP TIME", "TOTAL TIME", "TIME INC", "ELEMENT", "ALLKE", "ALLIE", "ALLAE", "ALLCW", "ALLWK", "ETOTAL",
+                     "ERROR %", "PENETRATION", "WALL S", "LEFT S", "ELEM/S") +
+             (can_fail_ ? fmt::format(" {:>9}", "DELETED") : "") + (scales_masses_ ? fmt::format(" {:>12}", "ADDED MASS %") : ""));
   }
 }
 
@@ -125,7 +129,8 @@ void Status::explicit_line(const Progress& progress, const State& state, const E
                             progress.critical_element, energies.kinetic, energies.internal, energies.hourglass, energies.contact,
                             energies.work, energies.total, energy_error(state, energies), progress.largest_penetration, seconds(),
                             view.remaining, view.elements_per_second) +
-                    (can_fail_ ? fmt::format(" {:>9}", progress.deleted_elements) : ""));
+                    (can_fail_ ? fmt::format(" {:>9}", progress.deleted_elements) : "") +
+                    (scales_masses_ ? fmt::format(" {:>12.5g}", 100.0 * progress.added_mass) : ""));
   if (progress.deleted_elements == deleted_elements_) return;
   deleted_elements_ = progress.deleted_elements;
   log(fmt::format("{} elements deleted until increment {}, time {:.6g}", deleted_elements_, progress.increment, progress.total_time));

@@ -47,6 +47,7 @@ class Status {
   std::chrono::steady_clock::time_point begin_;
   std::int64_t element_count_ = 0;
   bool can_fail_ = false;              // a material has *SHEAR FAILURE: one more column
+  bool scales_masses_ = false;         // a step has mass scaling: one more column
   std::int64_t deleted_elements_ = 0;  // told in .log
 
   std::int32_t step_ = 0;

@@ -55,9 +55,9 @@ AlphaMethod::AlphaMethod(Analysis& analysis, const ImplicitDofMap& map, double a
       const auto node = analysis.domain.local_node[carried.node];
       if (node < 0 || !analysis.domain.owned[node]) continue;
       const Three arm{carried.offset};
-      first_moment_[body] = first_moment_[body] + analysis.nodal_mass[node] * arm;
+      first_moment_[body] = first_moment_[body] + analysis.inertia.mass[node] * arm;
       for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) second_moment_[body](i, j) += analysis.nodal_mass[node] * arm[i] * arm[j];
+        for (int j = 0; j < 3; ++j) second_moment_[body](i, j) += analysis.inertia.mass[node] * arm[i] * arm[j];
     }
 }
 

@@ -37,20 +37,6 @@ std::vector<std::vector<bool>> local_elements(const Model& model, std::span<cons
   return local;
 }
 
-/// Calls `visit(local node, mass)` for every MASS element whose node is on this rank; `element` tells which it is.
-template <class Visit>
-void for_each_point_mass(const Model& model, const Domain& domain, Visit visit) {
-  for (std::size_t table = 0; table < model.elements.size(); ++table) {
-    const auto& elements = model.elements[table];
-    if (elements.type->section != Section::Kind::mass) continue;
-    for (std::int32_t row = 0; row < elements.size(); ++row) {
-      const auto node = domain.local_node[elements.connectivity[row]];
-      if (node >= 0)
-        visit(node, model.sections[elements.section[row]].mass, ElementRef{static_cast<std::int32_t>(table), row});
-    }
-  }
-}
-
 }  // namespace
 
 void repeat_in_padded_lanes(const ElementGroup& group, std::span<double> history) {
@@ -64,7 +50,8 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
     : model(model_),
       communicator(communicator_),
       domain(make_domain(model_, communicator_, partitioner)),
-      directions(model_) {
+      directions(model_),
+      inertia_sums_(model, communicator, domain) {
   communicator.together([&] {
     element_groups = make_groups(model, std::exchange(domain.groups, {}));
     for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair)
@@ -78,8 +65,8 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
       if (auto& faces = pressure_faces[load.surface]; !faces)
         faces = std::make_unique<PressureFaces>(model, model.surfaces[load.surface], domain.local_node, local,
                                                 domain.scratch_node());
-  sum_masses();
-  sum_rotary_inertia();
+  mass_constant_ = inertia_sums_.sum(element_groups, false, inertia);
+  collect_rotary_tensors();
 
   const std::size_t size = 4 * (domain.size() + 1);
   for (auto* array : {&current.position, &current.velocity, &acceleration, &reaction}) array->assign(size, 0.0);
@@ -99,6 +86,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
     current.element_history.push_back(group->initial_history());
     group->set_initial_fields(model, current.element_history.back());
   }
+  current.mass_scale.resize(element_groups.size());
   for (const auto& pair : contacts) current.contact.emplace_back(pair.size());
   current.rigid_bodies = initial_rigid_bodies(model);
   undeformed_increment = balocco::undeformed_increment(model, communicator, domain, element_groups);
@@ -136,68 +124,7 @@ void Analysis::find_places(std::int32_t constraint, std::vector<NodePlace>& plac
   }
 }
 
-void Analysis::sum_masses() {
-  // The largest share of one element in one node gives the quantum in which nodal masses are counted.
-  double largest = 0.0;
-  std::vector<double> share;
-  const auto for_each_share = [&](auto visit) {
-    for (const auto& group : element_groups) {
-      share.resize(group->nodes_per_element());
-      const auto material = model.sections[group->section()].material;
-      const double alpha = material >= 0 ? model.materials[material].damping_alpha : 0.0;
-      for (std::int32_t e = 0; e < group->size(); ++e) {
-        group->lumped_mass(e, share);
-        for (std::size_t i = 0; i < share.size(); ++i) visit(group->nodes(e)[i], share[i], alpha);
-      }
-    }
-  };
-  for_each_share([&](std::int32_t, double mass, double alpha) { largest = std::max({largest, mass, alpha * mass}); });
-  mass_constant_ = rounding_constant(64.0 * communicator.maximum(largest));
-
-  std::vector<double> sums(4 * (domain.size() + 1), 0.0);
-  for_each_share([&](std::int32_t node, double mass, double alpha) {
-    sums[4 * node] += rounded(mass, mass_constant_);
-    sums[4 * node + 1] += rounded(alpha * mass, mass_constant_);
-  });
-  domain.halo->begin_sum(sums.data());
-  domain.halo->finish_sum(sums.data());
-  nodal_mass.resize(domain.size());
-  nodal_damping.resize(domain.size());
-  for (std::int32_t node = 0; node < domain.size(); ++node) {
-    nodal_mass[node] = sums[4 * node];
-    nodal_damping[node] = sums[4 * node + 1];
-  }
-  for_each_point_mass(model, domain, [&](std::int32_t node, double mass, ElementRef) { nodal_mass[node] += mass; });
-}
-
-void Analysis::sum_rotary_inertia() {
-  double largest = 0.0;
-  std::vector<double> share;
-  const auto for_each_share = [&](auto visit) {
-    for (const auto& group : element_groups) {
-      if (group->freedoms_per_node() == 3) continue;
-      share.resize(group->nodes_per_element());
-      const auto material = model.sections[group->section()].material;
-      const double alpha = material >= 0 ? model.materials[material].damping_alpha : 0.0;
-      for (std::int32_t e = 0; e < group->size(); ++e) {
-        group->lumped_rotary_inertia(e, share);
-        for (std::size_t i = 0; i < share.size(); ++i) visit(group->nodes(e)[i], share[i], alpha);
-      }
-    }
-  };
-  for_each_share([&](std::int32_t, double inertia, double alpha) { largest = std::max({largest, inertia, alpha * inertia}); });
-  const double constant = rounding_constant(64.0 * communicator.maximum(largest));
-  std::vector<double> sums(4 * (domain.size() + 1), 0.0);
-  for_each_share([&](std::int32_t node, double inertia, double alpha) {
-    sums[4 * node] += rounded(inertia, constant);
-    sums[4 * node + 1] += rounded(alpha * inertia, constant);
-  });
-  domain.halo->begin_sum(sums.data());
-  domain.halo->finish_sum(sums.data());
-  for (std::int32_t node = 0; node < domain.turning; ++node) {
-    rotary_inertia.push_back(sums[4 * node]);
-    rotary_damping.push_back(sums[4 * node + 1]);
-  }
+void Analysis::collect_rotary_tensors() {
   for (const auto& table : model.elements) {
     if (table.type->section != Section::Kind::rotary_inertia) continue;
     for (std::int32_t row = 0; row < table.size(); ++row) {
@@ -328,8 +255,18 @@ void Analysis::apply_attachments(const Step& step) {
   index_rigid_nodes();
 }
 
+void Analysis::apply_mass_scale() {
+  bool scaled = false;
+  for (std::size_t index = 0; index < element_groups.size(); ++index) {
+    element_groups[index]->set_mass_scale(current.mass_scale[index]);
+    scaled = scaled || !current.mass_scale[index].empty();
+  }
+  if (communicator.any(scaled)) inertia_sums_.sum(element_groups, true, scaled_inertia_);
+}
+
 void Analysis::take_up_checkpoint() {
   index_rigid_nodes();
+  apply_mass_scale();
   const std::array of_rows{&current.multiplier, &current.guide_motion, &current.guide_locked};
   for (auto* values : of_rows) values->resize(static_cast<std::size_t>(first_constraint_row.back()), 0.0);
   std::size_t next = 0;

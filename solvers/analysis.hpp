@@ -15,6 +15,7 @@
 #include "domain.hpp"
 #include "elements/small_strain_output.hpp"
 #include "loads/pressure_faces.hpp"
+#include "lumped_inertia.hpp"
 #include "model/model.hpp"
 #include "model/results.hpp"
 #include "model/state.hpp"
@@ -39,10 +40,9 @@ class Analysis : public ResultSource {
   std::vector<std::int32_t> first_constraint_row;        // of each constraint in State::multiplier, and how many rows there are
   std::vector<std::int32_t> local_constraints;           // those whose nodes are all on this rank, in order
   std::vector<std::unique_ptr<PressureFaces>> pressure_faces;  // per Model::surfaces, null where no step presses on it
-  std::vector<double> nodal_mass;                  // per local node, summed over ranks (order-free), MASS elements included
-  std::vector<double> nodal_damping;               // per local node: sum of alpha * mass
-  std::vector<double> rotary_inertia;              // per node that turns: lumped, the same about all axes; of elements with a kernel
-  std::vector<double> rotary_damping;              // per node that turns: sum of alpha * that
+  LumpedInertia inertia;                           // as materials and sections give it, summed over ranks (order-free)
+  /// As the explicit loop has it: with the elements' mass scales.
+  const LumpedInertia& scaled_inertia() const { return scaled_inertia_.mass.empty() ? inertia : scaled_inertia_; }
   /// ROTARYI elements on nodes that turn: inertia about the node in the reference configuration, global axes.
   struct RotaryTensor {
     std::int32_t node = -1;     // local
@@ -71,6 +71,8 @@ class Analysis : public ResultSource {
   const std::vector<double>& loaded_share(const BodyLoad& load) const;
   /// Rebuilds what follows from the state, after a checkpoint was read.
   void take_up_checkpoint();
+  /// Gives elements and nodes the masses that State::mass_scale says. Collective.
+  void apply_mass_scale();
   /// Rebuilds carrier() and tells the groups which elements act, from the state: after attachments.
   void index_rigid_nodes();
   /// Where the nodes of a local constraint are.
@@ -115,7 +117,6 @@ class Analysis : public ResultSource {
   /// Adds what a connector's constraints exert to a total force CTF (as of a spring that is pulled), or to a part of it: CRF of what holds,
   /// stops (friction at the stop included), locks or drives it, CSF of friction, CCF of loads.
   void add_connector_forces(ElementRef connector, std::string_view variable, std::span<double> values) const;
-  void sum_masses();
   template <class Visit>
   void for_each_energies(std::size_t group, Visit visit) const;
   EnergyBalance sum_energies() const;
@@ -123,8 +124,10 @@ class Analysis : public ResultSource {
   void find_acting_elements();
   void add_kinetic_energy(ExactSum& sum) const;
   void add_kinetic_energy_of_rotary_inertia(ExactSum& sum) const;
-  void sum_rotary_inertia();
+  void collect_rotary_tensors();
 
+  InertiaSums inertia_sums_;
+  LumpedInertia scaled_inertia_;  // empty: as `inertia`
   std::vector<std::int32_t> carrier_, reference_of_, turning_body_;
   std::map<ElementRef, std::vector<std::int32_t>> constraints_of_connector_;
   double mass_constant_ = 0.0;  // rounds shares of nodal masses

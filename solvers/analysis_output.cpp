@@ -333,10 +333,10 @@ void Analysis::add_kinetic_energy(ExactSum& sum) const {
   for (std::int32_t node = 0; node < domain.size(); ++node) {
     if (!domain.owned[node]) continue;
     const auto v = velocity_now(*this, node);
-    add(0.5 * nodal_mass[node] * conserved_square(*this, v.data(), &acceleration[4 * node]));
+    add(0.5 * scaled_inertia().mass[node] * conserved_square(*this, v.data(), &acceleration[4 * node]));
     if (node >= domain.turning) continue;
     const auto w = spin_of_node(*this, node);
-    add(0.5 * rotary_inertia[node] * conserved_square(*this, w.data(), &angular_acceleration[4 * node]));
+    add(0.5 * scaled_inertia().rotary[node] * conserved_square(*this, w.data(), &angular_acceleration[4 * node]));
   }
   add_kinetic_energy_of_rotary_inertia(sum);
   for (const auto& given : rotary_tensors) {
@@ -349,7 +349,7 @@ void Analysis::add_kinetic_energy(ExactSum& sum) const {
 }
 
 EnergyBalance Analysis::sum_energies() const {
-  enum { kinetic, strain, hourglass, viscous, plastic, friction, contact_springs, work, count };
+  enum { kinetic, strain, hourglass, viscous, plastic, friction, contact_springs, work, mass_scaling, count };
   std::array<ExactSum, count> sums;
   // Most of the addends are zero in most models.
   const auto add = [&](int kind, double addend) {
@@ -368,6 +368,7 @@ EnergyBalance Analysis::sum_energies() const {
     add(work, current.nodal_work[node].external);
     add(viscous, current.nodal_work[node].damping);
     add(friction, current.nodal_work[node].friction);
+    add(mass_scaling, current.nodal_work[node].mass_scaling);
     add(work, -work_ahead[node].external);
     add(viscous, -work_ahead[node].damping);
     add(friction, -work_ahead[node].friction);
@@ -389,8 +390,9 @@ EnergyBalance Analysis::sum_energies() const {
   balance.viscous = sums[viscous].value();
   balance.friction = sums[friction].value();
   balance.work = sums[work].value();
+  balance.mass_scaling = sums[mass_scaling].value();
   balance.internal = balance.strain + balance.hourglass + balance.plastic + balance.contact;
-  balance.total = balance.kinetic + balance.internal + balance.viscous + balance.friction - balance.work;
+  balance.total = balance.kinetic + balance.internal + balance.viscous + balance.friction - balance.work - balance.mass_scaling;
   return balance;
 }
 

@@ -149,7 +149,8 @@ void DynamicStep::find_accelerations() {
   for (const auto slot : map.owned_free_slots()) {
     const auto node = map.node_of(slot);
     // A load on what has no mass does not accelerate it: it goes with what it hangs on.
-    const bool moves_mass = map.is_multiplier(slot) || map.is_rotation(slot) || analysis_.nodal_mass[node] > 0.0 || analysis_.reference_of(node) >= 0;
+    const bool moves_mass =
+        map.is_multiplier(slot) || map.is_rotation(slot) || analysis_.inertia.mass[node] > 0.0 || analysis_.reference_of(node) >= 0;
     right_hand_side.push_back(moves_mass ? -out_of_balance[slot] : 0.0);
   }
   if (map.equations() > 0) {

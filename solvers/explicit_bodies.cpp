@@ -51,11 +51,18 @@ RigidDynamics::RigidDynamics(const Analysis& analysis, const Step& step) : step_
     }
   }
   sum_gravity(analysis);
+  renew_inertia(analysis);
+}
+
+void RigidDynamics::renew_inertia(const Analysis& analysis) {
+  if (bodies_.empty()) return;
   sum_inertia(analysis);
   add_rotary_inertia(analysis);
   refuse_massless(analysis);
-  for (auto& body : bodies_)
+  for (auto& body : bodies_) {
+    body.inertia_now = {};
     if (body.is_free) invert_free(body);
+  }
 }
 
 void RigidDynamics::add_nodes(const Analysis& analysis, std::size_t index) {

@@ -31,6 +31,8 @@ class RigidDynamics {
   Yielding yielding(std::size_t body) const;
 
   bool empty() const { return bodies_.empty(); }
+  /// Takes over masses that have changed. Collective.
+  void renew_inertia(const Analysis& analysis);
   void refuse_jumps(const Analysis& analysis) const;
   /// Prescribed components of the motion at the start of the first dynamic step, then the velocities of all carried
   /// nodes.

@@ -50,8 +50,8 @@ void RigidDynamics::sum_inertia(const Analysis& analysis) {
     for (const auto& [node, owned, turns, oriented, r] : bodies_[i].nodes) {
       if (!owned) continue;
       if (turns)  // half of it in each of xx, yy, zz: two of them make a moment of inertia
-        for (std::size_t k = 4; k < 7; ++k) sums[moments * i + k].add(0.5 * analysis.rotary_inertia[node]);
-      const double mass = analysis.nodal_mass[node];
+        for (std::size_t k = 4; k < 7; ++k) sums[moments * i + k].add(0.5 * analysis.scaled_inertia().rotary[node]);
+      const double mass = analysis.scaled_inertia().mass[node];
       const std::array<double, moments> products{1.0,         r[0],        r[1],        r[2],        r[0] * r[0],
                                                  r[1] * r[1], r[2] * r[2], r[0] * r[1], r[0] * r[2], r[1] * r[2]};
       for (std::size_t k = 0; k < moments; ++k) sums[moments * i + k].add(mass * products[k]);

@@ -10,8 +10,8 @@
 namespace balocco {
 
 ExplicitContact::ExplicitContact(const Analysis& analysis, const Step& step, const NodalConstraints& constraints,
-                                 const RigidDynamics& bodies, std::span<const double> inverse_mass) {
-  std::vector<double> stiffness(inverse_mass.size(), 0.0);
+                                 const RigidDynamics& bodies, std::span<const double> inverse_mass)
+    : stiffness_(inverse_mass.size(), 0.0) {
   for (const auto row : step.active_contact_pairs) {
     const auto& contact = analysis.contacts[row];
     Pair pair{.row = row,
@@ -30,15 +30,30 @@ ExplicitContact::ExplicitContact(const Analysis& analysis, const Step& step, con
       }
       pair.stiff.push_back(hard && !pair.master.yields() && freedom.yields());
     }
-    contact.add_spring_stiffness(pair.stiff, stiffness);
+    contact.add_spring_stiffness(pair.stiff, stiffness_);
     free_masters_ = free_masters_ || pair.master.yields();
     pairs_.push_back(std::move(pair));
   }
-  // Of a rigid body's nodes the heaviest pull is on one alone: stiffness / mass of the body is at most the largest of its nodes.
+  find_nodal_frequency(analysis);
+}
+
+/// Of a rigid body's nodes the heaviest pull is on one alone: stiffness / mass of the body is at most the largest of its nodes.
+void ExplicitContact::find_nodal_frequency(const Analysis& analysis) {
+  const auto& mass = analysis.scaled_inertia().mass;
   double largest = 0.0;
-  for (std::size_t node = 0; node < stiffness.size(); ++node)
-    if (analysis.nodal_mass[node] > 0.0) largest = std::max(largest, stiffness[node] / analysis.nodal_mass[node]);
+  for (std::size_t node = 0; node < stiffness_.size(); ++node)
+    if (mass[node] > 0.0) largest = std::max(largest, stiffness_[node] / mass[node]);
   nodal_frequency_squared_ = analysis.communicator.maximum(largest);
+}
+
+void ExplicitContact::renew_inertia(const Analysis& analysis, const RigidDynamics& bodies, std::span<const double> inverse_mass) {
+  for (auto& pair : pairs_) {
+    const auto& contact = analysis.contacts[pair.row];
+    pair.master = bodies.yielding(static_cast<std::size_t>(contact.master_body()));
+    for (std::int32_t point = 0; point < contact.size(); ++point)
+      pair.freedom[point].inverse_mass = inverse_mass[contact.nodes()[point]];
+  }
+  find_nodal_frequency(analysis);
 }
 
 void ExplicitContact::choose_springs(Analysis& analysis) const {

@@ -16,6 +16,8 @@ class ExplicitContact {
   ExplicitContact(const Analysis& analysis, const Step& step, const NodalConstraints& constraints,
                   const RigidDynamics& bodies, std::span<const double> inverse_mass);
 
+  /// Takes over masses that have changed.
+  void renew_inertia(const Analysis& analysis, const RigidDynamics& bodies, std::span<const double> inverse_mass);
   /// At the start of a step: gives closed points the springs of this step without changing their forces.
   void choose_springs(Analysis& analysis) const;
   /// Warns of nodes that start below a surface. Collective.
@@ -49,10 +51,12 @@ class ExplicitContact {
     const NodalConstraints::Constraint* constraint;
   };
 
+  void find_nodal_frequency(const Analysis& analysis);
   double frequency_squared_of_masters(const Analysis& analysis) const;
 
   std::vector<Pair> pairs_;
   std::vector<Held> held_;
+  std::vector<double> stiffness_;  // of springs, per local node
   double nodal_frequency_squared_ = 0.0;
   bool free_masters_ = false;
 };

@@ -31,7 +31,7 @@ GyroscopicNodes::GyroscopicNodes(const Analysis& analysis, const Step& step)
       index_[given.node] = static_cast<std::int32_t>(nodes_.size());
       nodes_.push_back({.node = given.node,
                         .section = given.section,
-                        .tensor = analysis.rotary_inertia[given.node] * Matrix3<double>::identity()});
+                        .tensor = analysis.scaled_inertia().rotary[given.node] * Matrix3<double>::identity()});
       if (const auto* axes = analysis.directions.find(row)) nodes_.back().axes = *axes;
     }
     auto& node = nodes_[index_[given.node]];
@@ -56,6 +56,15 @@ GyroscopicNodes::GyroscopicNodes(const Analysis& analysis, const Step& step)
 
 bool GyroscopicNodes::contains(std::int32_t node) const {
   return node < static_cast<std::int32_t>(index_.size()) && index_[node] >= 0;
+}
+
+void GyroscopicNodes::renew_inertia(const Analysis& analysis) {
+  for (auto& node : nodes_) {
+    node.tensor = analysis.scaled_inertia().rotary[node.node] * Matrix3<double>::identity();
+    node.inertia_now = {};
+  }
+  for (const auto& given : analysis.rotary_tensors)
+    if (contains(given.node)) nodes_[index_[given.node]].tensor = nodes_[index_[given.node]].tensor + given.tensor;
 }
 
 const GyroscopicNodes::Inertia& GyroscopicNodes::inertia(const Node& node, const Analysis& analysis) {

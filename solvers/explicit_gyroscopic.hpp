@@ -18,6 +18,8 @@ class GyroscopicNodes {
   GyroscopicNodes(const Analysis& analysis, const Step& step);
 
   bool contains(std::int32_t node) const;
+  /// Takes over rotary inertias of elements that have changed.
+  void renew_inertia(const Analysis& analysis);
   /// Angular accelerations under `moment` (4 a node), reactions and their work; then the spins over the next increment.
   void accelerate(Analysis& analysis, const Step& step, const Instant& instant, const double* moment);
   /// What linkages (explicit_linkages.hpp) ask: angular accelerations by moments, and the spin over the next increment under a moment.

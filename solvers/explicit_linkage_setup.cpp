@@ -60,7 +60,6 @@ std::int32_t ExplicitLinkages::mover_of(const Analysis& analysis, System& system
 
 void ExplicitLinkages::find_freedoms(const Analysis& analysis, Mover& mover) const {
   const bool translates = mover.kind == Mover::Kind::translation;
-  mover.inverse_inertia = translates ? inverse_.mass[mover.index] : inverse_.rotary[mover.index];
   const auto row = analysis.domain.node_row[mover.index];
   const auto conditions = (translates ? translations_ : rotations_).of_node(mover.index);
   for (int axis = 0; axis < 3; ++axis) {
@@ -72,8 +71,25 @@ void ExplicitLinkages::find_freedoms(const Analysis& analysis, Mover& mover) con
       continue;
     }
     mover.directions.push_back(direction);
+  }
+  take_inertia(mover);
+}
+
+void ExplicitLinkages::take_inertia(Mover& mover) const {
+  mover.inverse_inertia = mover.kind == Mover::Kind::translation ? inverse_.mass[mover.index] : inverse_.rotary[mover.index];
+  mover.response = {};
+  for (const auto& direction : mover.directions)
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) mover.response(i, j) += mover.inverse_inertia * direction[i] * direction[j];
+}
+
+void ExplicitLinkages::renew_inertia(InverseInertia& inverse) {
+  inverse_ = inverse;
+  for (auto& system : systems_) {
+    for (auto& mover : system.movers)
+      if (mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation) take_inertia(mover);
+    system.factorized_for = 0.0;
+    take_over(system, inverse);
   }
 }
 

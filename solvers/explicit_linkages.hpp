@@ -37,6 +37,8 @@ class ExplicitLinkages {
   const InverseInertia& inverse() const { return inverse_; }
   /// Bound of the acceleration per force, where the constraints let a node move (turn) that they move.
   double mobility(const Analysis& analysis, std::int32_t node, bool rotation);
+  /// Takes over masses that have changed; sets `inverse` to zero as the constructor does.
+  void renew_inertia(InverseInertia& inverse);
   /// Velocities at the start of a step: the nearest ones, by mass, that the constraints allow. As the next two: @throws AnalysisError, on the
   /// ranks of a linkage alone, where its motion is not determined.
   void make_velocities_consistent(Analysis& analysis);
@@ -134,6 +136,7 @@ class ExplicitLinkages {
   std::int32_t mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index);
   NodeUse use_of(const Analysis& analysis, System& system, std::int32_t row, bool turns);
   void find_freedoms(const Analysis& analysis, Mover& mover) const;
+  void take_inertia(Mover& mover) const;
   void list_columns(System& system) const;
   void find_implied_rows(Analysis& analysis, System& system) const;
   void drop_implied_rows(const Analysis& analysis, System& system) const;

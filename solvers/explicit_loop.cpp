@@ -27,6 +27,7 @@ void start(ExplicitStep& cycle) {
   cycle.prepare_start();
   cycle.log_resting_elements();
   cycle.log_dependent_constraints();
+  cycle.log_mass_scaling();
   compute_forces(cycle);
   cycle.add_stiff_contact();
   cycle.sum_body_forces();
@@ -49,6 +50,7 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
   while (!cycle.finished()) {
     cycle.advance_positions();
     compute_forces(cycle);
+    cycle.scale_masses();
     cycle.add_damping();
     cycle.choose_increment();
     cycle.add_stiff_contact();
@@ -58,6 +60,7 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
     if (!cycle.observe()) return Outcome::stopped;
   }
   cycle.log_deleted_elements();
+  if (!cycle.fixed_masses()) cycle.log_mass_scaling();
   cycle.log_timers();
   return Outcome::finished;
 }

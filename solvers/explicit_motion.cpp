@@ -95,7 +95,7 @@ std::vector<double>& NodalConstraints::velocity(Analysis& analysis) const {
 }
 
 const std::vector<double>& NodalConstraints::inertia(const Analysis& analysis) const {
-  return freedom_ == NodalFreedom::rotation ? analysis.rotary_inertia : analysis.nodal_mass;
+  return freedom_ == NodalFreedom::rotation ? analysis.scaled_inertia().rotary : analysis.scaled_inertia().mass;
 }
 
 MotionComponent NodalConstraints::motion(const Analysis& analysis, const Constraint& constraint) const {

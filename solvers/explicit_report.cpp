@@ -7,6 +7,7 @@
 
 #include "constraint_report.hpp"
 #include "explicit_folding.hpp"
+#include "explicit_nodes.hpp"
 #include "explicit_step.hpp"
 #include "model/diagnostics.hpp"
 
@@ -47,6 +48,7 @@ Progress ExplicitStep::progress() const {
   progress.critical_element = governing.payload;
   progress.largest_penetration = contact_.largest_penetration(analysis_);
   progress.deleted_elements = analysis_.communicator.sum(failures_.count(analysis_.current.element_history));
+  progress.added_mass = mass_scaling_.added_part();
   progress.step_finished = finished();
   return progress;
 }
@@ -72,6 +74,44 @@ bool ExplicitStep::observe() {
   bool go_on = true;
   timers.measure(Phase::output, [&] { go_on = observer_.advanced(analysis_, progress()); });
   return go_on;
+}
+
+void ExplicitStep::report_failure() {
+  analysis_.communicator.together([&] {
+    if (failure_) throw AnalysisError(*failure_);
+  });
+}
+
+void ExplicitStep::report_collapse() {
+  const auto worst = analysis_.communicator.minimum(Communicator::Located{stability_.increment, stability_.element});
+  throw AnalysisError(fmt::format(
+      "step {}, increment {}, time {:.6g}: element {} has become so distorted that its stable increment is {:.3g} "
+      "(undeformed model: {:.3g})",
+      step_.name, analysis_.current.increment, analysis_.current.total_time, worst.payload, worst.value,
+      analysis_.undeformed_increment));
+}
+
+void ExplicitStep::remember_blow_up() {
+  if (failure_) return;
+  std::int32_t node = 0;
+  const auto has_blown_up = [&](std::size_t at) {
+    return has_outgrown(&force_[4 * at]) || (at < inverse_.rotary.size() && has_outgrown(&moment_[4 * at]));
+  };
+  while (!has_blown_up(static_cast<std::size_t>(node))) ++node;
+  const Model& model = analysis_.model;
+  std::string element;
+  for (const auto& group : analysis_.element_groups) {
+    for (std::int32_t e = 0; e < group->size() && element.empty(); ++e) {
+      const auto nodes = group->nodes(e);
+      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
+        element = fmt::format(" of element {}", model.elements[group->table()].id[group->row(e)]);
+    }
+  }
+  failure_ = fmt::format(
+      "step {}, increment {}, time {:.6g}: the run has blown up at node {}{}; the time increment may be too "
+      "large, or a load or an initial penetration too violent",
+      step_.name, analysis_.current.increment, analysis_.current.total_time,
+      model.nodes.id[analysis_.domain.node_row[node]], element);
 }
 
 void ExplicitStep::remember_folding() {
@@ -160,6 +200,10 @@ void ExplicitStep::log_deleted_elements() const {
   if (deleted == 0) return;
   observer_.log(fmt::format("step {}: {} elements have failed and are deleted (*SHEAR FAILURE); their mass stays at the nodes",
                             step_.name, deleted));
+}
+
+void ExplicitStep::log_mass_scaling() const {
+  for (const auto& line : mass_scaling_.report(analysis_)) observer_.log(line);
 }
 
 void ExplicitStep::log_timers() const {

@@ -87,7 +87,7 @@ std::int32_t moving_body(const Analysis& analysis, std::int32_t node) {
 
 /// Inverse of the smallest rotary inertia of a node that turns freely; 0 if it has none.
 std::vector<double> rotary_mobilities(const Analysis& analysis) {
-  std::vector<double> inertia(analysis.rotary_inertia);
+  std::vector<double> inertia(analysis.scaled_inertia().rotary);
   for (const auto& [node, section, tensor] : analysis.rotary_tensors) {
     const Eigen::Map<const Eigen::Matrix3d> matrix(tensor.component.data());
     inertia[node] += Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(matrix, Eigen::EigenvaluesOnly).eigenvalues()[0];
@@ -110,7 +110,7 @@ RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& 
   const auto twisted = body_restraints(analysis, restraints.rotation, turner);
   const auto rotary = rotary_mobilities(analysis);
   const auto mobility_of_node = [&](std::int32_t node, bool rotates) {
-    const double mass = analysis.nodal_mass[node];
+    const double mass = analysis.scaled_inertia().mass[node];
     if (rotates ? rotary[node] > 0.0 : mass > 0.0) return rotates ? rotary[node] : 1.0 / mass;
     return linkages.mobility(analysis, node, rotates);
   };
@@ -148,7 +148,8 @@ void refuse_massless_restraints(const Analysis& analysis, const Step& step, cons
       for (const auto node : group.nodes(element)) {
         if (!restrains(restraint_of(group, element, rotates))) continue;
         if (rotates ? analysis.turning_body(node) >= 0 || held_rotation[node] || rotary[node] > 0.0 || linkages.turns(node)
-                    : moving_body(analysis, node) >= 0 || held[node] || analysis.nodal_mass[node] > 0.0 || linkages.moves(node))
+                    : moving_body(analysis, node) >= 0 || held[node] || analysis.scaled_inertia().mass[node] > 0.0 ||
+                          linkages.moves(node))
           continue;
         const auto& table = analysis.model.elements[group.table()];
         throw InputError(fmt::format(

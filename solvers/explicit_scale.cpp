@@ -45,7 +45,7 @@ std::vector<double> shortest_edges(const Model& model, const Domain& domain) {
 
 /// Nodal masses of elements alone: point masses load no element by themselves.
 std::vector<double> element_masses(const Analysis& analysis) {
-  auto mass = analysis.nodal_mass;
+  auto mass = analysis.inertia.mass;
   for (const auto& table : analysis.model.elements) {
     if (table.type->section != Section::Kind::mass) continue;
     for (std::int32_t row = 0; row < table.size(); ++row)
@@ -82,7 +82,7 @@ void add_body_load(const Analysis& analysis, const BodyLoad& load, double greate
   if (!acts_on_mass(load)) volume = analysis.communicator.maximum(std::ranges::max(analysis.loaded_share(load)));
   const double size = model_size(analysis.model);
   for (std::int32_t node = 0; node < domain.size(); ++node) {
-    double force = greatest * (acts_on_mass(load) ? analysis.nodal_mass[node] : volume);
+    double force = greatest * (acts_on_mass(load) ? analysis.inertia.mass[node] : volume);
     if (load.kind == BodyLoad::Kind::centrifugal)
       force *= size + distance_from_axis(load, analysis.model.nodes.coordinates[domain.node_row[node]]);
     largest[node] += force;
@@ -159,8 +159,7 @@ double undeformed_increment(const Model& model, const Communicator& communicator
   return communicator.minimum(smallest.increment);
 }
 
-ForceScale force_scale(const Analysis& analysis, const Step& step, const NodalRestraints& restraints,
-                       const RestraintBound& bound) {
+ForceScale force_scale(const Analysis& analysis, const Step& step, const NodalRestraints& restraints) {
   const double increment = analysis.undeformed_increment;
   ForceScale scale;
   const auto edge = shortest_edges(analysis.model, analysis.domain);
@@ -168,14 +167,13 @@ ForceScale force_scale(const Analysis& analysis, const Step& step, const NodalRe
   for (std::size_t node = 0; node < largest.size(); ++node)
     largest[node] *= edge[node] / (increment * increment);
   // A rotation of about one strains the element: moments are rotary inertia / increment^2, or that force at the edge's end.
-  std::vector<double> moment(analysis.rotary_inertia);
+  std::vector<double> moment(analysis.inertia.rotary);
   scale.lever.assign(edge.begin(), edge.begin() + analysis.domain.turning);
   for (std::size_t node = 0; node < moment.size(); ++node)
     moment[node] = std::max(moment[node] / (increment * increment), largest[node] * edge[node]);
   add_loads(analysis, step, largest, moment);
-  if (bound.omega_square > 0.0 || bound.rate > 0.0)
-    add_restraints(analysis, step, restraints,
-                   std::min(increment, neutral_increment(bound.omega_square, bound.rate)), largest, moment);
+  if (std::isfinite(analysis.current.restraint_increment))
+    add_restraints(analysis, step, restraints, std::min(increment, analysis.current.restraint_increment), largest, moment);
   for (const auto pair : step.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
     for (std::int32_t point = 0; point < contact.size(); ++point)

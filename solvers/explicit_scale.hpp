@@ -19,10 +19,9 @@ struct ForceScale {
   std::vector<double> lever;              // per node that turns: the shortest edge beside it, which turns moments into forces
 };
 
-/// Fixed for a step by the undeformed model and the step's loads, so that a restart on any number of ranks finds the
-/// same. Collective.
-ForceScale force_scale(const Analysis& analysis, const Step& step, const NodalRestraints& restraints,
-                       const RestraintBound& bound);
+/// Fixed for a step by the undeformed model, its own masses and the step's loads, so that a restart on any number of ranks finds
+/// the same. Collective.
+ForceScale force_scale(const Analysis& analysis, const Step& step, const NodalRestraints& restraints);
 
 /// Force beyond which a sum rounded with `constant` is no longer sure to be exact: 2 x the largest sum it was made for.
 constexpr double overflow_fraction = 0.66;  // of the constant; 2 x largest sum is 2/3 of it

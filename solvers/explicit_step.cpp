@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "elements/bulk_viscosity.hpp"
 #include "explicit_nodes.hpp"
 #include "explicit_start.hpp"
 #include "model/diagnostics.hpp"
@@ -14,8 +15,6 @@
 namespace balocco {
 
 namespace {
-
-constexpr double collapse = 1e-4;  // of the undeformed elements' increment: an element is about to invert
 
 /// Sum of the durations of the steps before, the same after a restart.
 double time_before(const Model& model, std::int32_t step) {
@@ -32,28 +31,36 @@ T make_together(const Analysis& analysis, Arguments... arguments) {
   return std::move(*made);
 }
 
-InverseInertia inverse_inertia(const Analysis& analysis, const GyroscopicNodes& gyroscopic) {
-  InverseInertia inverse;
+void find_inverse(const Analysis& analysis, const GyroscopicNodes& gyroscopic, InverseInertia& inverse) {
   const auto of = [](double inertia) { return inertia > 0.0 ? 1.0 / inertia : 0.0; };
+  const auto& inertia = analysis.scaled_inertia();
+  inverse.mass.resize(inertia.mass.size());
+  inverse.rotary.resize(inertia.rotary.size());
   for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
     const bool moved_by_body = analysis.carrier(node) >= 0 || analysis.reference_of(node) >= 0;
-    inverse.mass.push_back(moved_by_body ? 0.0 : of(analysis.nodal_mass[node]));
+    inverse.mass[node] = moved_by_body ? 0.0 : of(inertia.mass[node]);
   }
   for (std::int32_t node = 0; node < analysis.domain.turning; ++node) {
     const bool turned_otherwise = analysis.turning_body(node) >= 0 || gyroscopic.contains(node);
-    inverse.rotary.push_back(turned_otherwise ? 0.0 : of(analysis.rotary_inertia[node]));
+    inverse.rotary[node] = turned_otherwise ? 0.0 : of(inertia.rotary[node]);
   }
+}
+
+InverseInertia inverse_inertia(const Analysis& analysis, const GyroscopicNodes& gyroscopic) {
+  InverseInertia inverse;
+  find_inverse(analysis, gyroscopic, inverse);
   return inverse;
 }
 
-/// How far bodies and linkages give way to springs depends on where they stand: what was found when the step began holds for all of it,
-/// also after a restart.
+/// How far bodies and linkages give way to springs depends on where they stand: what was found when the step began, or masses were
+/// scaled last, holds on, also after a restart.
 RestraintBound bound_of_step(Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies, ExplicitLinkages& linkages) {
   auto& state = analysis.current;
   if (state.increment == 0) {
     const auto bound = restraint_bound(analysis, restraints, bodies, linkages);
     state.restraint_omega_square = bound.omega_square;
     state.restraint_rate = bound.rate;
+    state.restraint_increment = neutral_increment(bound.omega_square, bound.rate);
   }
   return {state.restraint_omega_square, state.restraint_rate};
 }
@@ -72,6 +79,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       procedure_(std::get<ExplicitProcedure>(step.procedure)),
       observer_(observer),
       total_time_at_start_(time_before(analysis.model, analysis.current.step)),
+      mass_scaling_(analysis, step),
       bodies_(analysis, step),
       failures_(analysis.element_groups),
       constraints_(make_together<NodalConstraints>(analysis, std::ref(step), NodalFreedom::translation)),
@@ -81,7 +89,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       linkages_(analysis, step, constraints_, rotation_constraints_, gyroscopic_, bodies_, inverse_),
       restraints_(nodal_restraints(analysis)),
       restraint_bound_(bound_of_step(analysis, restraints_, bodies_, linkages_)),
-      scale_(force_scale(analysis, step, restraints_, restraint_bound_)),
+      scale_(force_scale(analysis, step, restraints_)),
       control_(step),
       contact_(analysis, step, constraints_, bodies_, inverse_.mass),
       moments_(analysis.model.rigid_bodies.size()) {
@@ -91,8 +99,8 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
   if (analysis.domain.turning > 0) moment_.assign(force_.size(), 0.0);
   for (std::size_t node = 0; node < scale_.moment_constant.size(); ++node)
     moment_[4 * node + 3] = scale_.moment_constant[node];
-  const bool damped =
-      std::any_of(analysis.nodal_damping.begin(), analysis.nodal_damping.end(), [](double c) { return c > 0.0; });
+  const bool damped = std::any_of(analysis.scaled_inertia().damping.begin(), analysis.scaled_inertia().damping.end(),
+                                  [](double c) { return c > 0.0; });
   if (analysis.communicator.any(damped)) {
     damping_force_.assign(4 * nodes, 0.0);
     damping_moment_.assign(analysis.current.rotation.size(), 0.0);
@@ -157,9 +165,11 @@ void ExplicitStep::advance_positions() {
     }
   });
   timers.measure(Phase::bodies, [&] { bodies_.advance(analysis_, increment); });
+  const double previous_time = state.step_time;
   state.step_time = control_.time_after(state.step_time, increment);
   state.total_time = total_time_at_start_ + state.step_time;
   ++state.increment;
+  look_at_mass_scaling(previous_time);
   ++cycles_;
   last_increment_ = increment;
 }
@@ -208,6 +218,32 @@ void ExplicitStep::add_interior_elements() {
   timers.measure(Phase::elements, [&] { add_elements(Portion::interior); });
 }
 
+void ExplicitStep::look_at_mass_scaling(double previous_time) {
+  const bool due = mass_scaling_.find_due(analysis_.current, previous_time);
+  if (due != scales_masses_)
+    for (const auto& group : analysis_.element_groups) group->record_increments(due);
+  scales_masses_ = due;
+}
+
+void ExplicitStep::scale_masses() {
+  if (!scales_masses_) return;
+  timers.measure(Phase::update, [&] {
+    if (!mass_scaling_.adapt(analysis_)) return;
+    stability_ = {};
+    for (const auto& group : analysis_.element_groups)
+      if (const auto stable = group->smallest_recorded_increment(); stable.element >= 0)
+        stability_.merge(stable.increment, analysis_.model.elements[group->table()].id[group->row(stable.element)]);
+    bodies_.renew_inertia(analysis_);
+    gyroscopic_.renew_inertia(analysis_);
+    find_inverse(analysis_, gyroscopic_, inverse_);
+    linkages_.renew_inertia(inverse_);
+    contact_.renew_inertia(analysis_, bodies_, inverse_.mass);
+    restraint_bound_ = balocco::restraint_bound(analysis_, restraints_, bodies_, linkages_);
+    analysis_.current.restraint_omega_square = restraint_bound_.omega_square;
+    analysis_.current.restraint_rate = restraint_bound_.rate;
+  });
+}
+
 void ExplicitStep::rest_failed_elements() {
   timers.measure(Phase::elements, [&] {
     for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index)
@@ -238,8 +274,8 @@ void ExplicitStep::finish_halo() {
 void ExplicitStep::add_damping() {
   if (damping_force_.empty()) return;
   timers.measure(Phase::update, [&] {
-    add_mass_damping(force_, damping_force_, analysis_.nodal_damping, analysis_.current.velocity);
-    add_mass_damping(moment_, damping_moment_, analysis_.rotary_damping, analysis_.current.angular_velocity);
+    add_mass_damping(force_, damping_force_, analysis_.scaled_inertia().damping, analysis_.current.velocity);
+    add_mass_damping(moment_, damping_moment_, analysis_.scaled_inertia().rotary_damping, analysis_.current.angular_velocity);
   });
 }
 
@@ -268,26 +304,11 @@ void ExplicitStep::choose_increment() {
     std::array<double, 3> agreed{-stability_.increment, attention ? 1.0 : 0.0, failure_ ? 1.0 : 0.0};
     analysis_.communicator.maximum(std::span<double>(agreed));
     if (agreed[2] > 0.0) report_failure();
-    if (-agreed[0] < collapse * analysis_.undeformed_increment) report_collapse();
+    if (-agreed[0] < collapsing * analysis_.undeformed_increment) report_collapse();
     attention_ = agreed[1] > 0.0;
     const double limit = combined_limit(-agreed[0], contact_.frequency_squared(analysis_), restraint_bound_);
     next_increment_ = control_.next_increment(state, last_increment_, limit);
   });
-}
-
-void ExplicitStep::report_failure() {
-  analysis_.communicator.together([&] {
-    if (failure_) throw AnalysisError(*failure_);
-  });
-}
-
-void ExplicitStep::report_collapse() {
-  const auto worst = analysis_.communicator.minimum(Communicator::Located{stability_.increment, stability_.element});
-  throw AnalysisError(fmt::format(
-      "step {}, increment {}, time {:.6g}: element {} has become so distorted that its stable increment is {:.3g} "
-      "(undeformed model: {:.3g})",
-      step_.name, analysis_.current.increment, analysis_.current.total_time, worst.payload, worst.value,
-      analysis_.undeformed_increment));
 }
 
 void ExplicitStep::add_half_work(double increment, std::vector<NodalWork>& work) const {
@@ -340,29 +361,6 @@ bool ExplicitStep::move_nodes(const Instant& now) {
   nodes_are_ahead_ = !is_observed();
   if (!nodes_are_ahead_) return kick(state.velocity, force_, inverse_.mass, now.average());
   return kick_and_drift({state.position, state.velocity, force_, inverse_.mass}, now.average(), now.next);
-}
-
-void ExplicitStep::remember_blow_up() {
-  if (failure_) return;
-  std::int32_t node = 0;
-  const auto has_blown_up = [&](std::size_t at) {
-    return has_outgrown(&force_[4 * at]) || (at < inverse_.rotary.size() && has_outgrown(&moment_[4 * at]));
-  };
-  while (!has_blown_up(static_cast<std::size_t>(node))) ++node;
-  const Model& model = analysis_.model;
-  std::string element;
-  for (const auto& group : analysis_.element_groups) {
-    for (std::int32_t e = 0; e < group->size() && element.empty(); ++e) {
-      const auto nodes = group->nodes(e);
-      if (std::find(nodes.begin(), nodes.end(), node) != nodes.end())
-        element = fmt::format(" of element {}", model.elements[group->table()].id[group->row(e)]);
-    }
-  }
-  failure_ = fmt::format(
-      "step {}, increment {}, time {:.6g}: the run has blown up at node {}{}; the time increment may be too "
-      "large, or a load or an initial penetration too violent",
-      step_.name, analysis_.current.increment, analysis_.current.total_time,
-      model.nodes.id[analysis_.domain.node_row[node]], element);
 }
 
 }  // namespace balocco

@@ -15,6 +15,7 @@
 #include "explicit_scale.hpp"
 #include "explicit_time.hpp"
 #include "explicit_timers.hpp"
+#include "mass_scaling.hpp"
 
 namespace balocco {
 
@@ -27,6 +28,8 @@ class ExplicitStep {
   ExplicitStep(Analysis& analysis, const Step& step, Observer& observer);
 
   bool starts_afresh() const { return analysis_.current.increment == 0; }
+  /// Masses stay what they were when the step began.
+  bool fixed_masses() const { return procedure_.variable_mass_scaling.empty(); }
   bool finished() const { return analysis_.current.step_time >= step_.duration(); }
 
   /// Attachments, initial velocities and everything else that happens once when a step begins.
@@ -41,6 +44,8 @@ class ExplicitStep {
   void add_interface_elements();
   void begin_halo();
   void add_interior_elements();
+  /// Behind the elements: masses that *VARIABLE MASS SCALING changes, and all that follows from them.
+  void scale_masses();
   /// Elements that failed in this cycle have no force from the next on.
   void rest_failed_elements();
   void add_soft_contact();
@@ -64,6 +69,7 @@ class ExplicitStep {
   void start_energy_balance();
   /// Collective.
   void log_deleted_elements() const;
+  void log_mass_scaling() const;
   void log_timers() const;
 
   PhaseTimers timers;
@@ -76,6 +82,7 @@ class ExplicitStep {
   /// Of any rank.
   RigidDynamics::Uses uses_of_nodes() const;
   void list_drifting_nodes();
+  void look_at_mass_scaling(double previous_time);
   NodalForces forces() { return {force_.data(), moment_.data()}; }
   std::span<const std::int32_t> loaded_turning_nodes() const { return std::span(loaded_nodes_).first(loaded_turning_); }
   /// What the halo sums: forces, and external ones if there are any.
@@ -105,6 +112,7 @@ class ExplicitStep {
   const ExplicitProcedure& procedure_;
   Observer& observer_;
   double total_time_at_start_ = 0.0;  // of the step
+  MassScalingOfStep mass_scaling_;
   RigidDynamics bodies_;
   ElementFailures failures_;
   NodalConstraints constraints_, rotation_constraints_;
@@ -130,6 +138,7 @@ class ExplicitStep {
   double next_increment_ = 0.0, last_increment_ = 0.0;
   bool checked_before_landing_ = false;  // the energy balance
   bool attention_ = true;               // the observer looks at this increment, and always at the start
+  bool scales_masses_ = false;          // at the end of this increment
   bool nodes_are_ahead_ = false;        // they have moved over the increment to come, and their forces are cleared
   std::int64_t cycles_ = 0;             // computed by this run, which may have been restarted in mid-step
   std::optional<std::string> failure_;  // found by this rank, told to all in the next agreement

@@ -66,9 +66,9 @@ RigidDynamics::Uses ExplicitStep::uses_of_nodes() const {
     for (std::int32_t element = 0; element < group->size(); ++element)
       if (group->acts(element)) push(group->nodes(element));
   for (const auto& contact : analysis_.contacts) push(contact.nodes());
+  const auto& inertia = analysis_.inertia;
   for (std::size_t node = 0; node < none.size(); ++node)
-    if (analysis_.nodal_damping[node] > 0.0 || (node < analysis_.rotary_damping.size() && analysis_.rotary_damping[node] > 0.0))
-      uses.pushed[node] = true;
+    if (inertia.damping[node] > 0.0 || (node < inertia.rotary_damping.size() && inertia.rotary_damping[node] > 0.0)) uses.pushed[node] = true;
   for (const auto index : analysis_.local_constraints)
     for (const auto row : analysis_.constraints[index]->nodes()) uses.asked[domain.local_node[row]] = true;
   return uses;

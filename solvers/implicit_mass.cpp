@@ -89,7 +89,7 @@ void for_each_spin_inertia(const Analysis& analysis, InertiaKind kind, const Vis
 }  // namespace
 
 void for_each_inertia(const Analysis& analysis, InertiaKind kind, const VisitInertia& visit) {
-  const auto& lumped = kind == InertiaKind::mass ? analysis.nodal_mass : analysis.nodal_damping;
+  const auto& lumped = kind == InertiaKind::mass ? analysis.inertia.mass : analysis.inertia.damping;
   for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
     if (!analysis.domain.owned[node] || lumped[node] == 0.0) continue;
     const Inertial freedom{node};

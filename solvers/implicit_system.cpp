@@ -63,7 +63,7 @@ void ImplicitSystem::find_levers() {
 void ImplicitSystem::find_stabilizing_masses() {
   mass_.assign(map_.slots(), 0.0);
   for (std::int32_t node = 0; node < analysis_.domain.size(); ++node)
-    std::fill_n(mass_.begin() + 3 * node, 3, analysis_.nodal_mass[node]);
+    std::fill_n(mass_.begin() + 3 * node, 3, analysis_.inertia.mass[node]);
   std::array<double, 2> sum{};
   for (const auto slot : map_.owned_slots())
     if (mass_[slot] > 0.0) {

@@ -11,7 +11,7 @@ namespace balocco::deck {
 const Words node_vectors{"U", "V", "A", "RF", "UR", "VR", "AR", "RM"};
 const Words contact_fields{"CPRESS", "CSHEAR", "COPEN", "CSLIP", "CNORMF", "CSHEARF"};
 const Words contact_histories{"CFN", "CFT", "CM", "CAREA", "XN"};
-const Words energies{"ALLKE", "ALLIE", "ALLSE", "ALLPD", "ALLVD", "ALLAE", "ALLFD", "ALLCW", "ALLWK", "ETOTAL"};
+const Words energies{"ALLKE", "ALLIE", "ALLSE", "ALLPD", "ALLVD", "ALLAE", "ALLFD", "ALLCW", "ALLMW", "ALLWK", "ETOTAL"};
 
 const Words preselected_node{"U", "V", "A", "RF"};
 const Words preselected_element{"S", "LE", "MISES"};

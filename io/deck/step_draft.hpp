@@ -8,6 +8,7 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include "model/model.hpp"
 
@@ -23,6 +24,8 @@ struct StepDraft {
   ImplicitControls controls;  // go on from step to step, like NLGEOM
   std::optional<std::array<double, 2>> bulk_viscosity;  // linear, quadratic
   Location bulk_viscosity_location;
+  std::optional<std::vector<MassScaling>> fixed_mass_scaling, variable_mass_scaling;
+  Location mass_scaling_location;  // of the first of them
   std::string amplitude;  // *STEP, AMPLITUDE=
   bool faulty = false;  // a block of it was refused: what that leaves missing is not told
   bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false;  // OP=NEW seen

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "deck/builder.hpp"
+#include "deck/mass_scaling.hpp"
 #include "deck/register.hpp"
 #include "deck/step_draft.hpp"
 #include "deck/text.hpp"
@@ -181,6 +182,7 @@ void end_step(Builder& builder, const Block& block) {
   if (step.seeks_modes()) end_search_for_modes(builder, step);
   if (auto* statics = std::get_if<StaticProcedure>(&step.procedure)) statics->controls = builder.draft.controls;
   if (auto* dynamics = std::get_if<DynamicProcedure>(&step.procedure)) dynamics->controls = builder.draft.controls;
+  end_mass_scaling(builder);
   if (!builder.draft.bulk_viscosity) return;
   if (auto* procedure = std::get_if<ExplicitProcedure>(&step.procedure)) {
     procedure->linear_bulk_viscosity = (*builder.draft.bulk_viscosity)[0];

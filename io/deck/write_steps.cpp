@@ -45,6 +45,23 @@ void Writer::procedure(const ExplicitProcedure& p) {
            : "");
   line("{}, {}", p.fixed_increment ? fmt::format("{}", *p.fixed_increment) : "", p.duration);
   line("*BULK VISCOSITY\n{}, {}", p.linear_bulk_viscosity, p.quadratic_bulk_viscosity);
+  for (const auto& definition : p.fixed_mass_scaling) mass_scaling("FIXED", definition);
+  for (const auto& definition : p.variable_mass_scaling) mass_scaling("VARIABLE", definition);
+}
+
+void Writer::mass_scaling(const char* kind, const MassScaling& definition) {
+  using Target = MassScaling::Target;
+  std::string text = fmt::format("*{} MASS SCALING", kind);
+  if (definition.factor != 1.0) text += fmt::format(", FACTOR={}", definition.factor);
+  if (definition.target != Target::none)
+    text += fmt::format(", DT={}, TYPE={}", definition.increment,
+                        definition.target == Target::uniform         ? "UNIFORM"
+                        : definition.target == Target::below_minimum ? "BELOW MIN"
+                                                                     : "SET EQUAL DT");
+  if (definition.frequency) text += fmt::format(", FREQUENCY={}", *definition.frequency);
+  if (definition.number_interval) text += fmt::format(", NUMBER INTERVAL={}", *definition.number_interval);
+  if (definition.element_set >= 0) text += ", ELSET=" + quoted(model_.element_sets[definition.element_set].name);
+  line("{}", text);
 }
 
 void Writer::procedure(const FrequencyProcedure& p) {
@@ -284,6 +301,20 @@ void Writer::checkpoints(std::size_t row) {
   }
 }
 
+namespace {
+
+/// Whether an explicit step does not go on with what the last one before it scaled.
+bool ends_mass_scaling(const Model& model, std::size_t row) {
+  const auto* procedure = std::get_if<ExplicitProcedure>(&model.steps[row].procedure);
+  if (procedure == nullptr || !procedure->variable_mass_scaling.empty()) return false;
+  while (row-- > 0)
+    if (const auto* before = std::get_if<ExplicitProcedure>(&model.steps[row].procedure))
+      return !before->variable_mass_scaling.empty();
+  return false;
+}
+
+}  // namespace
+
 void Writer::step(std::size_t row) {
   const Step& now = model_.steps[row];
   comment(("Step " + now.name).c_str());
@@ -296,6 +327,7 @@ void Writer::step(std::size_t row) {
 
   line("*STEP, NAME={}{}", quoted(now.name), details);
   std::visit([this](const auto& kind) { procedure(kind); }, now.procedure);
+  if (ends_mass_scaling(model_, row)) line("*VARIABLE MASS SCALING");
   if (now.is_perturbation()) {  // nothing but supports and loads can be said of it
     boundary(row);
     if (!std::holds_alternative<FrequencyProcedure>(now.procedure)) loads(now);

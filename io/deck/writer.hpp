@@ -57,6 +57,7 @@ class Writer {
   void step(std::size_t row);
   void procedure(const StaticProcedure& p);
   void procedure(const ExplicitProcedure& p);
+  void mass_scaling(const char* kind, const MassScaling& definition);
   void procedure(const FrequencyProcedure& p);
   void procedure(const DynamicProcedure& p);
   void procedure(const BuckleProcedure& p);

@@ -1,6 +1,7 @@
 #include "elements/element_group.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "elements/element_type.hpp"
 #include "elements/failure.hpp"
@@ -57,6 +58,26 @@ void ElementGroup::set_acting(std::vector<bool> acting) {
       std::fill_n(&scatter_[static_cast<std::size_t>(lane) * nodes_per_element_], nodes_per_element_, scratch_node_);
   interface_work_ = work_of(0, interface_padded_);
   interior_work_ = work_of(interface_padded_, padded_size_);
+}
+
+void ElementGroup::set_mass_scale(std::span<const double> scale) {
+  mass_scale_.assign(scale.begin(), scale.end());
+  if (!mass_scale_.empty()) mass_scale_.resize(static_cast<std::size_t>(padded_size_), mass_scale_.back());
+  time_scale_.resize(mass_scale_.size());
+  std::ranges::transform(mass_scale_, time_scale_.begin(), [](double s) { return std::sqrt(s); });
+}
+
+void ElementGroup::record_increments(bool record) {
+  records_increments_ = record;
+  if (record) recorded_increments_.resize(static_cast<std::size_t>(padded_size_));
+}
+
+StableIncrement ElementGroup::smallest_recorded_increment() const {
+  StableIncrement smallest;
+  for (std::int32_t element = 0; element < size_; ++element)
+    if (acts(element))
+      smallest.merge({(time_scale_.empty() ? 1.0 : time_scale_[element]) * recorded_increments_[element], element});
+  return smallest;
 }
 
 std::int32_t ElementGroup::acting_count() const {

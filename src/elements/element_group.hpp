@@ -10,6 +10,7 @@
 // Model::nodes.coordinates (total Lagrangian).
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -109,6 +110,16 @@ class ElementGroup {
   virtual double density() const = 0;
   void lumped_mass(std::int32_t element, std::span<double> mass) const;
 
+  /// How many times its mass, and rotary inertia, each element has in explicit steps; empty: once. Their stable increments and bulk
+  /// viscosity follow. lumped_mass() and what else statics ask for do not.
+  void set_mass_scale(std::span<const double> scale);
+  double mass_scale(std::int32_t element) const { return mass_scale_.empty() ? 1.0 : mass_scale_[element]; }
+  /// While it records, add_forces() keeps the stable increment that each acting element has with its own mass.
+  void record_increments(bool record);
+  double recorded_increment(std::int32_t element) const { return recorded_increments_[element]; }
+  /// The smallest recorded one, with the masses as they are scaled now.
+  StableIncrement smallest_recorded_increment() const;
+
   /// Lumped rotary inertia of each node, the same about all axes (mass x length^2), raised for the explicit increment's sake; asked
   /// only where nodes turn.
   virtual void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const;
@@ -161,9 +172,17 @@ class ElementGroup {
   virtual std::size_t bytes_per_element() const = 0;
 
  protected:
+  /// Square roots of the mass scales of the pack that starts at lane `first`: what mass s m does in time t, mass m does in
+  /// t / sqrt(s). So kernels compute bulk viscosity and increments as in that time, and merge() takes increments back.
+  const double* time_scale(std::int32_t first) const {
+    return time_scale_.empty() ? unit_scale_.data() : time_scale_.data() + first;
+  }
   /// Merges the increments of the pack that starts at lane `first`.
   template <PackOfLanes T>
-  void merge(const T& increments, std::int32_t first, StableIncrement& smallest) const {
+  void merge(T increments, std::int32_t first, StableIncrement& smallest) const {
+    if (records_increments_)
+      for (int lane = 0; lane < pack_size; ++lane) recorded_increments_[first + lane] = increments[lane];
+    if (!time_scale_.empty()) increments *= T([&](int lane) { return time_scale_[first + lane]; });
     if (all_of(increments >= T(smallest.increment))) return;
     for (int lane = 0; lane < pack_size; ++lane)
       if (acts(first + lane)) smallest.merge({increments[lane], first + lane});
@@ -191,6 +210,14 @@ class ElementGroup {
   std::vector<bool> acting_;  // padded; empty: all
   Work interface_work_, interior_work_;
   mutable std::vector<double> kept_history_;  // of resting lanes while their pack is computed
+  static constexpr std::array<double, pack_size> unit_scale_ = [] {
+    std::array<double, pack_size> units{};
+    units.fill(1.0);
+    return units;
+  }();
+  std::vector<double> mass_scale_, time_scale_;  // padded; empty: all 1
+  bool records_increments_ = false;
+  mutable std::vector<double> recorded_increments_;  // padded
 };
 
 }  // namespace balocco

@@ -18,7 +18,8 @@
 
 namespace balocco {
 
-/// Energies of the whole model (all ranks), Abaqus's names. total = kinetic + internal + viscous + friction - work stays constant.
+/// Energies of the whole model (all ranks), Abaqus's names. total = kinetic + internal + viscous + friction - work - mass_scaling
+/// stays constant.
 struct EnergyBalance {
   double kinetic = 0.0;     // ALLKE
   double internal = 0.0;    // ALLIE = strain + hourglass + plastic + contact (penalty springs)
@@ -29,6 +30,7 @@ struct EnergyBalance {
   double friction = 0.0;    // ALLFD
   double contact = 0.0;     // ALLCW: stored in contact springs
   double work = 0.0;        // ALLWK: external
+  double mass_scaling = 0.0;  // ALLMW: kinetic energy of mass when it was added to what moves
   double total = 0.0;       // ETOTAL
 
   /// What an error of the balance is measured by: the energy that is, or has come, into the model.
@@ -73,6 +75,7 @@ struct Progress {
   double largest_residual = 0.0;       // at convergence (implicit)
   double largest_penetration = 0.0;    // of all active contact pairs (explicit)
   std::int64_t deleted_elements = 0;   // by *SHEAR FAILURE, since the analysis began (explicit)
+  double added_mass = 0.0;             // by mass scaling, as a part of the mass of the model (explicit)
   bool step_finished = false;
 };
 

@@ -50,6 +50,7 @@ struct NodalWork {
   double external = 0.0;  // loads, prescribed motion and reactions
   double damping = 0.0;   // mass-proportional Rayleigh damping; hits of stops of connectors
   double friction = 0.0;  // in connectors
+  double mass_scaling = 0.0;  // kinetic energy that came with mass added to what moves
 };
 
 struct State {
@@ -60,7 +61,9 @@ struct State {
   bool dynamic = false;             // true once initial velocities have been applied
   double energy_at_start = 0.0;     // explicit: ETOTAL when the step began
   double largest_energy = 0.0;      // explicit: EnergyBalance::magnitude() at its largest in the step, as far as it was sampled
-  double restraint_omega_square = 0.0, restraint_rate = 0.0;  // explicit: bounds of springs and dashpots (explicit_time.hpp) when the step began
+  // Explicit: bounds of springs and dashpots (explicit_time.hpp) when the step began, or masses were scaled last:
+  double restraint_omega_square = 0.0, restraint_rate = 0.0;
+  double restraint_increment = 0.0;  // explicit: what they allowed when the step began
   double least_stable = 0.0;        // explicit: smallest increment that was stable since the last look at raising it; 0: none yet
   double time_increment = 0.0;      // of the increment to come (static: as suggested), 0 at the end of a step
   bool linear = true;               // only geometrically linear steps so far: positions are the reference's + linear displacements
@@ -74,6 +77,7 @@ struct State {
   std::vector<double> rotation;          // accumulated rotation vector UR (may exceed a turn)
   std::vector<NodalWork> nodal_work;
   std::vector<std::vector<double>> element_history;       // per element group
+  std::vector<std::vector<double>> mass_scale;  // explicit: per element group, of each element; empty: all have their own mass
   std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
   std::vector<RigidBodyState> rigid_bodies;
   // Of constraints, kept by the ranks that hold their nodes:

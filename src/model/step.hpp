@@ -179,6 +179,19 @@ struct DynamicProcedure : ImplicitIncrements {
   double alpha = -0.05;  // -1/3 (most damping of the highest frequencies) to 0 (none)
 };
 
+/// *FIXED MASS SCALING, *VARIABLE MASS SCALING: how many times their mass the elements of a set have.
+struct MassScaling {
+  /// What their stable increments become: those below `increment` are raised to it, the smallest one becomes it by one factor for
+  /// all, or each becomes it.
+  enum class Target { none, below_minimum, uniform, equal } target = Target::none;
+  double increment = 0.0;
+  double factor = 1.0;              // fixed: of the mass that materials and sections give, before the target
+  std::int32_t element_set = -1;    // row of Model::element_sets; -1: the whole model, but for what other definitions name
+  // Variable: when; exactly one is set.
+  std::optional<std::int32_t> frequency;        // at the start and every n increments
+  std::optional<std::int32_t> number_interval;  // at the start and at the end of each of n equal intervals of the step
+};
+
 struct ExplicitProcedure {
   static constexpr std::string_view name = "explicit dynamics";
   static constexpr bool ramps_loads = false;
@@ -193,6 +206,8 @@ struct ExplicitProcedure {
   double scale_factor = 1.0;
   double linear_bulk_viscosity = 0.06, quadratic_bulk_viscosity = 1.2;
   double energy_error_limit = 0.1;  // of the largest energy of the step: beyond it the run ends
+  std::vector<MassScaling> fixed_mass_scaling;     // at the start of the step, of original masses; none: masses stay as they are
+  std::vector<MassScaling> variable_mass_scaling;  // during the step, also those that go on from steps before
 };
 
 /// Natural frequencies and modes of the structure as it is loaded. At least one of `number` and `upper` is set.

@@ -86,7 +86,7 @@ double reduced_brick(const Law& law) {
   const auto q = hourglass_vectors(c, f, reference);
   nodal_forces(
       conjugates_with_stresses(c, q, hourglass_stresses(hourglass_strains(c, q), reference), stress, reference));
-  const BrickStability stability{1.0, 0.0};
+  const BrickStability<Counted> stability{1.0, 0.0};
   stability.increment(invariant, TangentBound<Counted>{1.0, 1.0}, q, viscosity.slope(Counted(1.0), rate), reference);
   const long kernel = count;
   return static_cast<double>(kernel + law_flops(law, f) + scatter_flops(8));

@@ -114,7 +114,9 @@ Pack BeamGroup::add_viscosity(std::int32_t first, const BeamVector<Pack>& strain
                                 load(data + (shear + 2) * pack_size)});
     for (auto& component : viscous) component = section_data_.damping_beta * component;
   }
-  viscous[2] += (cycle.linear_bulk_viscosity * section_data_.density * wave * section_data_.shape.area) * l * rate[2];
+  const Pack time_scale = load_unaligned(this->time_scale(first));
+  viscous[2] += (cycle.linear_bulk_viscosity * section_data_.density * wave * section_data_.shape.area) * l *
+                (time_scale * rate[2]);
   Pack work = 0.0;
   for (int i = 0; i < 6; ++i) {
     work = work + viscous_work(load_unaligned(row(viscous_row + i)), viscous[i], change[i]);
@@ -123,7 +125,9 @@ Pack BeamGroup::add_viscosity(std::int32_t first, const BeamVector<Pack>& strain
   }
   store_unaligned(load_unaligned(row(0)) + l * work, row(0));
   const Pack axial = wave / l;
-  return (4.0 * section_data_.damping_beta) * axial * axial + (4.0 * cycle.linear_bulk_viscosity) * axial;
+  const Pack of_bulk_viscosity = (4.0 * cycle.linear_bulk_viscosity) * axial;
+  if (section_data_.damping_beta == 0.0) return of_bulk_viscosity;
+  return (4.0 * section_data_.damping_beta / time_scale) * axial * axial + of_bulk_viscosity;
 }
 
 /// The fibres take the place of the elastic section in stretch and bending, and of round profiles in torsion.

@@ -62,7 +62,8 @@ std::array<Pack, 3> MembraneGroup<corners, points>::viscous_stress(Block& block,
   const Pack old_ratio = load_unaligned(row(area_ratio_row(point)));
   store_unaligned(ratio, row(area_ratio_row(point)));
   const Pack rate = 2.0 * inverse_increment * (ratio - old_ratio) / (ratio + old_ratio);
-  const Pack pressure = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Layout::viscosity) * rate;
+  const Pack pressure = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Layout::viscosity) *
+                        (load_unaligned(time_scale(element)) * rate);
   const Pack contravariant = pressure / square;  // Cauchy stress pressure * 1 pulled back: pressure * C^-1
   std::array<Pack, 3> stress{contravariant * stretch.c22, contravariant * stretch.c11, -contravariant * stretch.c12};
   Pack work = viscous_work(load_unaligned(row(viscous_row(point))), pressure, cycle.increment * rate);
@@ -150,7 +151,11 @@ Pack MembraneGroup<corners, points>::stable_increment(const Block& block, int pa
   if constexpr (Layout::quadrilateral) state.hourglass = Kernel::hourglass_vector(data, block.edge[pack]);
   const Pack viscosity = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Layout::viscosity);
   // Damping belongs to the undeformed moduli, the bound of the stiffness to the current ones.
-  const Pack beta = section_data_.damping_beta * (section_data_.linear ? Pack(1.0) : section_data_.initial_modulus / modulus);
+  Pack beta = 0.0;
+  if (damped()) {
+    const Pack scale = load_unaligned(time_scale(block.first + pack * pack_size));
+    beta = section_data_.damping_beta / scale * (section_data_.linear ? Pack(1.0) : section_data_.initial_modulus / modulus);
+  }
   return MembraneStability<Pack, corners, points>::increment(data, state, {viscosity, beta});
 }
 

@@ -155,7 +155,8 @@ void ShellGroup<corners, points>::add_viscosity(Block& block, int pack, const Ex
   for (int q = 1; q < points; ++q) area = area + reference_value<Pack>(data, Record::point + q * Record::point_size);
 
   const Pack rate = 2.0 * inverse_increment * (ratio - old_ratio) / (ratio + old_ratio);
-  const Pack pressure = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Record::viscosity) * rate;
+  const Pack pressure = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Record::viscosity) *
+                        (load_unaligned(time_scale(element)) * rate);
   const Pack contravariant = area * pressure / square;  // Cauchy stress pressure * 1 pulled back: pressure * C^-1
   auto& stress = block.stress[pack];
   stress.membrane[0] = stress.membrane[0] + contravariant * c22;
@@ -205,9 +206,10 @@ Pack ShellGroup<corners, points>::stable_increment(const Block& block, int pack,
   const Pack stiffness = stretch * (block.stiffening[pack] * eigenvalue) +
                          block.tension[pack] * reference_value<Pack>(data, Record::tension);
   const Pack least = maximum(c11 * c22 - c12 * c12, Pack(1e-300));
-  const Pack viscous = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Record::viscosity) *
-                           reference_value<Pack>(data, Record::dilatation) * (2.0 * half / least) +
-                       section_.damping_beta * (stretch * eigenvalue);
+  Pack viscous = cycle.linear_bulk_viscosity * reference_value<Pack>(data, Record::viscosity) *
+                 reference_value<Pack>(data, Record::dilatation) * (2.0 * half / least);
+  if (damped())
+    viscous += section_.damping_beta / load_unaligned(time_scale(block.first + pack * pack_size)) * (stretch * eigenvalue);
   const Pack omega = square_root(stiffness), damping = 0.5 * viscous / omega;
   return 2.0 * (square_root(1.0 + damping * damping) - damping) / omega;
 }

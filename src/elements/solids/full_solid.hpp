@@ -84,7 +84,7 @@ class FullSolid final : public ElementGroup {
   Pack add_damping(std::int32_t element, const ExplicitCycle& cycle, const FullSolidKinematics<Pack, Shape>& k,
                    Tensors<Pack>& stress) const;
   Pack stable_increment(const Coefficients<Pack>& c, const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,
-                        const PointBatch<PointKind::solid>& points, const Pack& viscous_slope, bool damped,
+                        const PointBatch<PointKind::solid>& points, const Pack& viscous_slope, const Pack& damping_beta,
                         const PackReference& reference) const;
   /// Bound of the elastic stiffness; `dilatation` is V |d(ln Jbar)/dx|^2.
   Pack stiffness_bound(const Coefficients<Pack>& c, const FullSolidKinematics<Pack, Shape>& k, const Tensors<Pack>& stress,

@@ -170,7 +170,8 @@ template <class Shape>
   const BulkViscosity viscosity(cycle.linear_bulk_viscosity, cycle.quadratic_bulk_viscosity, material_.density,
                                 material_.wave_speed);
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
-  const Pack rate = volume_rate(k.mean_jacobian, old_jacobian, inverse_increment);
+  const Pack time_scale(this->time_scale(element), std::experimental::element_aligned);
+  const Pack rate = time_scale * volume_rate(k.mean_jacobian, old_jacobian, inverse_increment);
   const Pack length = reference[Record::length], mean_stress = viscosity.stress(length, rate);
   const Pack old_stress(&history[2 * padded_size_ + element], std::experimental::element_aligned);
   dissipation += reference[Record::volume] * viscous_work(old_stress, mean_stress, k.mean_jacobian - old_jacobian);
@@ -184,7 +185,8 @@ template <class Shape>
   k.mean_jacobian.copy_to(&history[element], std::experimental::element_aligned);
   dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
   mean_stress.copy_to(&history[2 * padded_size_ + element], std::experimental::element_aligned);
-  return stable_increment(c, k, stress, points, viscosity.slope(length, rate), damped, reference);
+  const Pack beta = damped ? Pack(material_.damping_beta / time_scale) : Pack(0.0);
+  return stable_increment(c, k, stress, points, viscosity.slope(length, rate), beta, reference);
 }
 
 template <class Shape>
@@ -317,7 +319,7 @@ Pack FullSolid<Shape>::stiffness_bound(const Coefficients<Pack>& c, const FullSo
 template <class Shape>
 Pack FullSolid<Shape>::stable_increment(const Coefficients<Pack>& c, const FullSolidKinematics<Pack, Shape>& k,
                                         const Tensors<Pack>& stress, const PointBatch<PointKind::solid>& points,
-                                        const Pack& viscous_slope, bool damped, const PackReference& reference) const {
+                                        const Pack& viscous_slope, const Pack& damping_beta, const PackReference& reference) const {
   const Pack volume = reference[Record::volume], inverse_volume = 1.0 / volume, inverse = 1.0 / k.mean_jacobian;
   // d(ln Jbar)/dx is the nodal force of a unit mean stress, over V Jbar.
   const auto gradient = Shape::nodal(full_solid_conjugates<Shape>(k, Tensors<Pack>{}, Pack(1.0), reference));
@@ -328,8 +330,7 @@ Pack FullSolid<Shape>::stable_increment(const Coefficients<Pack>& c, const FullS
   const Pack stiffness = stiffness_bound(c, k, stress, points, dilatation, reference);
   const Pack inverse_mass = material_.density > 0.0 ? (Shape::nodes / material_.density) * inverse_volume : Pack(0.0);
   const Pack omega_square = inverse_mass * stiffness;
-  const Pack damping = inverse_mass * (viscous_slope * (k.mean_jacobian * dilatation)) +
-                       (damped ? material_.damping_beta : 0.0) * omega_square;
+  const Pack damping = inverse_mass * (viscous_slope * (k.mean_jacobian * dilatation)) + damping_beta * omega_square;
   Pack smallest_jacobian = k.jacobian[0];
   for (int q = 1; q < Shape::points; ++q) smallest_jacobian = -maximum(-smallest_jacobian, -k.jacobian[q]);
   const Pack increment = neutral_increment(omega_square, damping);

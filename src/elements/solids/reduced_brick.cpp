@@ -149,7 +149,8 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
     put(12, component(own_history + 12) + lost);
     put(13, kept);
   }
-  const Pack rate = volume_rate(invariant.jacobian, old_jacobian, inverse_increment);
+  const Pack time_scale(this->time_scale(element), std::experimental::element_aligned);
+  const Pack rate = time_scale * volume_rate(invariant.jacobian, old_jacobian, inverse_increment);
   const Pack mean_stress = viscosity.stress(length, rate);
   const Pack old_stress(&history[2 * padded_size_ + element], std::experimental::element_aligned);
   dissipation += volume * viscous_work(old_stress, mean_stress, invariant.jacobian - old_jacobian);
@@ -176,7 +177,7 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
   dissipation.copy_to(&history[padded_size_ + element], std::experimental::element_aligned);
   mean_stress.copy_to(&history[2 * padded_size_ + element], std::experimental::element_aligned);
   const TangentBound<Pack> bound{load(points.volumetric_modulus), load(points.shear_modulus)};
-  const BrickStability stability{material_.density, damped ? material_.damping_beta : 0.0};
+  const BrickStability<Pack> stability{material_.density, damped ? Pack(material_.damping_beta / time_scale) : Pack(0.0)};
   if constexpr (hourglass == Hourglass::flowing)
     return stability.increment(invariant, f, bound, q, viscosity.slope(length, rate), shape);
   else

@@ -18,23 +18,23 @@ namespace balocco {
 /// bounds them:
 ///   (a + b)/2 + sqrt((a - b)^2 / 4 + a b cos^2).
 /// So a free cube gets omega^2 = 4 (3 lambda + 2 mu) / (rho L^2), its dilatation: L / c_d would be unsafe.
+template <class T>
 struct BrickStability {
-  double density, damping_beta;
+  double density;
+  T damping_beta;
 
-  template <class T>
   T increment(const Invariants<T>& c, const TangentBound<T>& bound, const std::array<Vector3<T>, 4>& q,
               const T& viscous_slope, const auto& reference) const {
     const T gradient_bound = reference[brick_record::gradient_bound];
     const T size = dot(q[0], q[0]) + dot(q[1], q[1]) + dot(q[2], q[2]) + dot(q[3], q[3]);
     const T stretch = largest_eigenvalue_bound(c.first, c.second);
     const T hourglass = reference[brick_record::hourglass_bound] * (1.25 * stretch + 5.0 * (gradient_bound * size));
-    return increment(c, bound, Hourglass<T>{hourglass, reference[brick_record::overlap]}, viscous_slope, reference);
+    return increment(c, bound, Hourglass{hourglass, reference[brick_record::overlap]}, viscous_slope, reference);
   }
 
   /// The same of an element whose shape has flowed: F there is the elastic one, Fe = F Fp^-1, sides are those of the new shape, and
   /// an hourglass row h_a becomes h_a - sum_k (beta_k . Q_a) e_k, whose last term, at most |Q| = u / (shortest half side), lies
   /// among the uniform strains: |h|^2 <= (cos + u)^2 + 1 - cos^2, of which (cos + u)^2 is common to both.
-  template <class T>
   T increment(const Invariants<T>& c, const Matrix3<T>& f, const TangentBound<T>& bound, const std::array<Vector3<T>, 4>& q,
               const T& viscous_slope, const auto& flowed) const {
     const Matrix3<T> elastic = f * flowed.inverse_plastic, cofactor_of_elastic = cofactor(elastic);
@@ -45,17 +45,15 @@ struct BrickStability {
     const T square = cosine * cosine + (1.0 - overlap);
     const T modulus = flowed[brick_record::hourglass_bound] * flowed.inverse_size;
     const T hourglass = modulus * square * (1.25 * stretch + 5.0 * (flowed.inverse_size * size));
-    return increment(c, bound, Hourglass<T>{hourglass, cosine * cosine / square}, viscous_slope, flowed);
+    return increment(c, bound, Hourglass{hourglass, cosine * cosine / square}, viscous_slope, flowed);
   }
 
  private:
   /// Largest stiffness of the hourglass modes per volume, and how much of them is uniform strain.
-  template <class T>
   struct Hourglass {
     T stiffness, overlap;
   };
-  template <class T>
-  T increment(const Invariants<T>& c, const TangentBound<T>& bound, const Hourglass<T>& hourglass, const T& viscous_slope,
+  T increment(const Invariants<T>& c, const TangentBound<T>& bound, const Hourglass& hourglass, const T& viscous_slope,
               const auto& reference) const {
     const T gradient_bound = reference[brick_record::gradient_bound];
     const T dilatation = inverse_stretch_metric(c.cofactor, reference) / (c.jacobian * c.jacobian);
@@ -72,7 +70,6 @@ struct BrickStability {
   }
 
   /// cof(F)^T cof(F) : B = sum_k |cof(F) beta_k|^2.
-  template <class T>
   static T inverse_stretch_metric(const Matrix3<T>& cofactor, const auto& reference) {
     T sum = T(0.0);
     for (int k = 0; k < 7; ++k) {

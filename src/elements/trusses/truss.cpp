@@ -101,8 +101,9 @@ TrussGroup::Pulled TrussGroup::pull(const Batch& batch, std::int32_t first, int 
   store_unaligned(stretch, row(stretch_row()));
 
   const Pack rate = 2.0 * inverse_increment * (stretch - old_stretch) / (stretch + old_stretch);
+  const Pack time_scale = load_unaligned(this->time_scale(first + slot));
   const Pack viscosity = cycle.linear_bulk_viscosity * std::sqrt(density_ * initial_modulus_) * length;
-  Pack viscous = viscosity * rate / square;
+  Pack viscous = viscosity * (time_scale * rate) / square;
   if (damped()) {
     const Pack strain_rate = inverse_increment * (strain - load_unaligned(row(strain_row())));
     store_unaligned(strain, row(strain_row()));
@@ -116,7 +117,9 @@ TrussGroup::Pulled TrussGroup::pull(const Batch& batch, std::int32_t first, int 
   const Pack modulus = 2.0 * load(batch.shear_modulus + slot);
   const Pack inverse_mass = 4.0 / (density_ * length * length);  // A / L * (1 / m + 1 / m)
   const Pack omega = square_root((modulus * square + maximum(stress, Pack(0.0))) * inverse_mass);
-  const Pack damping = inverse_mass * (viscosity / square + damping_beta_ * initial_bound_ * square);
+  Pack damping = viscosity / square;
+  if (damped()) damping += damping_beta_ * initial_bound_ / time_scale * square;
+  damping *= inverse_mass;
   const Pack ratio = 0.5 * damping / omega;
   return {stress + viscous, 2.0 * (square_root(1.0 + ratio * ratio) - ratio) / omega};
 }

@@ -138,7 +138,7 @@ TEST(DeckStep, DefaultsOfProceduresAndOutput) {
   EXPECT_DOUBLE_EQ(std::get<StaticProcedure>(steps[0].procedure).minimum_increment, 1e-5);
   EXPECT_EQ(steps[0].field_outputs[0].frequency, 1);
   EXPECT_EQ(steps[0].field_outputs[0].node_variables, (std::vector<std::string>{"U", "V", "A", "RF"}));
-  EXPECT_EQ(steps[0].history_outputs[0].energies.size(), 10u);
+  EXPECT_EQ(steps[0].history_outputs[0].energies.size(), 11u);
   ASSERT_EQ(steps[1].field_outputs.size(), 1u);
   EXPECT_EQ(steps[1].field_outputs[0].node_variables, (std::vector<std::string>{"U", "RF"}));
   EXPECT_TRUE(steps[1].history_outputs.empty());
@@ -291,6 +291,40 @@ TEST(DeckStep, SettingsMayStandBeforeTheProcedureTheyBelongTo) {
 TEST(DeckStep, BulkViscosityBelongsToExplicitSteps) {
   const auto errors = errors_of(brick + "*STEP\n*STATIC\n*BULK VISCOSITY\n0.1, 2.\n*END STEP\n");
   EXPECT_NE(errors.find("*BULK VISCOSITY: only *DYNAMIC, EXPLICIT has a bulk viscosity"), std::string::npos) << errors;
+}
+
+TEST(DeckStep, VariableMassScalingGoesOnUntilItIsReplaced) {
+  const std::string dynamic = "*STEP\n*DYNAMIC, EXPLICIT\n, 1.\n";
+  const Model model =
+      read(brick + dynamic +
+           "*FIXED MASS SCALING, FACTOR=2., DT=1E-6, TYPE=SET EQUAL DT, ELSET=ALL\n*FIXED MASS SCALING, DT=1E-7\n" +
+           "*VARIABLE MASS SCALING, DT=2E-6, TYPE=UNIFORM, NUMBER INTERVAL=4\n*END STEP\n*STEP\n*STATIC\n*END STEP\n" + dynamic +
+           "*END STEP\n" + dynamic + "*VARIABLE MASS SCALING\n*END STEP\n" + dynamic + "*FIXED MASS SCALING\n*END STEP\n")
+          .model;
+  const Model again = read(write_deck(model)).model;
+  for (const auto* of : {&model, &again}) {
+    const auto step = [&](std::size_t row) -> const ExplicitProcedure& {
+      return std::get<ExplicitProcedure>(of->steps[row].procedure);
+    };
+    using Target = MassScaling::Target;
+    ASSERT_EQ(step(0).fixed_mass_scaling.size(), 2u);
+    EXPECT_EQ(step(0).fixed_mass_scaling[0].factor, 2.0);
+    EXPECT_EQ(step(0).fixed_mass_scaling[0].target, Target::equal);
+    EXPECT_GE(step(0).fixed_mass_scaling[0].element_set, 0);
+    EXPECT_EQ(step(0).fixed_mass_scaling[1].target, Target::below_minimum);
+    EXPECT_EQ(step(0).fixed_mass_scaling[1].increment, 1e-7);
+    EXPECT_EQ(step(0).fixed_mass_scaling[1].element_set, -1);
+    EXPECT_TRUE(step(2).fixed_mass_scaling.empty());
+    for (const std::size_t row : {0u, 2u}) {
+      ASSERT_EQ(step(row).variable_mass_scaling.size(), 1u);
+      EXPECT_EQ(step(row).variable_mass_scaling[0].target, Target::uniform);
+      EXPECT_EQ(step(row).variable_mass_scaling[0].number_interval, 4);
+      EXPECT_FALSE(step(row).variable_mass_scaling[0].frequency);
+    }
+    EXPECT_TRUE(step(3).variable_mass_scaling.empty());
+    EXPECT_TRUE(step(4).variable_mass_scaling.empty());
+    EXPECT_EQ(step(4).fixed_mass_scaling.size(), 1u);
+  }
 }
 
 TEST(ModelSummary, MassCentreAndInertiaOfABrick) {
