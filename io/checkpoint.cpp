@@ -166,31 +166,36 @@ void write_header(const std::string& path, const Model& model, const State& stat
   file.set_attribute("/", "restraint_omega_square", state.restraint_omega_square);
   file.set_attribute("/", "restraint_rate", state.restraint_rate);
   file.set_attribute("/", "restraint_increment", state.restraint_increment);
+  if (const auto& read = model.restart_read; read && read->end_step) {
+    file.set_attribute("/", ended_step, static_cast<std::int64_t>(read->step));
+    file.set_attribute("/", duration_of_ended_step, model.steps[read->step - 1].duration());
+  }
   file.set_attribute("/", "format", std::string("balocco checkpoint"));
   file.close();
 }
 
-/// Everything stands as at the start of a job, but for what the steps before have made of it.
-void read_foreign_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
+void refuse_other_model(const Hdf5File& file, const std::string& path, const Model& model) {
   for (const auto& [part, digest] : model_digests(model)) {
     const std::string attribute = "digest of " + part;
     if (file.has_attribute("/", attribute) && file.text_attribute("/", attribute) == digest) continue;
-    throw InputError(fmt::format("{}: error: checkpoint of another model than {}: its {} differ; import from a job with the same model, "
-                                 "whose steps alone are others",
-                                 path, model.files.empty() ? model.name : model.files.front(), part));
+    throw InputError(
+        fmt::format("{}: error: checkpoint of another model than {}: its {} differ; go on from a job with the same model, "
+                    "whose steps alone are others",
+                    path, model.files.empty() ? model.name : model.files.front(), part));
   }
+}
+
+/// Everything stands as at the start of a job, but for what the steps before have made of it.
+void read_foreign_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
+  refuse_other_model(file, path, model);
   state.dynamic = file.integer_attribute("/", "dynamic") != 0;
   state.linear = file.integer_attribute("/", "linear") != 0;
   if (state.linear)
     throw InputError(fmt::format("{}: error: its steps are geometrically linear, so that it is no state to go on from; give them NLGEOM", path));
 }
 
-void read_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
-  if (file.text_attribute("/", "deck_sha256") != model.deck_sha256) {
-    throw InputError(fmt::format("{}: error: checkpoint of another deck than {}; restart with the deck as it was, or run "
-                                 "without --restart",
-                                 path, model.files.empty() ? model.name : model.files.front()));
-  }
+/// Where the state stands in the steps of its job, and what their solvers remember.
+void read_place(const Hdf5File& file, State& state) {
   state.total_time = file.number_attribute("/", "total_time");
   state.step = static_cast<std::int32_t>(file.integer_attribute("/", "step"));
   state.step_time = file.number_attribute("/", "step_time");
@@ -205,6 +210,20 @@ void read_header(const Hdf5File& file, const std::string& path, const Model& mod
   state.restraint_omega_square = file.number_attribute("/", "restraint_omega_square");
   state.restraint_rate = file.number_attribute("/", "restraint_rate");
   state.restraint_increment = file.number_attribute("/", "restraint_increment");
+}
+
+void read_header(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
+  if (file.text_attribute("/", "deck_sha256") != model.deck_sha256) {
+    throw InputError(fmt::format("{}: error: checkpoint of another deck than {}; restart with the deck as it was, or run "
+                                 "without --restart",
+                                 path, model.files.empty() ? model.name : model.files.front()));
+  }
+  read_place(file, state);
+}
+
+void read_header_of_other_deck(const Hdf5File& file, const std::string& path, const Model& model, State& state) {
+  refuse_other_model(file, path, model);
+  read_place(file, state);
 }
 
 void read_bodies(const Hdf5File& file, State& state) {
@@ -333,6 +352,11 @@ void import_checkpoint(const std::string& path, const Model& model, const Commun
                        ElementGroups groups, State& state) {
   read_all(path, model, communicator, domain, groups, state, read_foreign_header);
   for (auto& scale : state.mass_scale) scale.clear();
+}
+
+void read_checkpoint_of_other_deck(const std::string& path, const Model& model, const Communicator& communicator,
+                                   const Domain& domain, ElementGroups groups, State& state) {
+  read_all(path, model, communicator, domain, groups, state, read_header_of_other_deck);
 }
 
 void read_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,

@@ -23,6 +23,11 @@ void write_checkpoint(const std::string& path, const Model& model, const Communi
 void read_checkpoint(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain,
                      ElementGroups groups, State& state);
 
+/// The same where *RESTART, READ says that the deck is another one with the same model, which begins with the steps of the first.
+/// @throws InputError that names the first part of the model that differs.
+void read_checkpoint_of_other_deck(const std::string& path, const Model& model, const Communicator& communicator,
+                                   const Domain& domain, ElementGroups groups, State& state);
+
 /// The same from the checkpoint of another job with the same model but other steps: `state` stands at the start of this deck's
 /// first step, at time zero, and masses count as the model has them. @throws InputError that names the first part of the model that
 /// differs.

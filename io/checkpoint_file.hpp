@@ -15,6 +15,10 @@ std::unique_ptr<Hdf5File> open_checkpoint(const std::string& path);
 /// Name of the dataset with the histories of elements of a type.
 std::string history_path(const std::string& element_type);
 
+/// Attributes: the number of the step that *RESTART, READ, END STEP ended, and how long it was.
+constexpr const char* ended_step = "ended step";
+constexpr const char* duration_of_ended_step = "duration of ended step";
+
 /// Name of the dataset with the mass scales of elements of a type, and whether there are any: then those of all types of the file's
 /// model.
 std::string mass_scale_path(const std::string& element_type);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 
 #include "builders/car/car_builder.hpp"
@@ -19,6 +20,7 @@
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
 #include "procedures.hpp"
+#include "restart_read.hpp"
 #include "results_diff.hpp"
 #include "signals.hpp"
 #include "state_import.hpp"
@@ -53,16 +55,20 @@ void print_warnings(const std::vector<std::string>& warnings) {
   for (const auto& warning : warnings) fmt::print(stderr, "{}\n", warning);
 }
 
+JobPaths paths_of(const Command& command) { return {command.output, std::filesystem::path(command.deck).stem().string()}; }
+
 ReadResult read_whole(const Command& command, const FileLoader& loader) {
   return read_deck(command.deck, loader, {.ignored_keywords = command.ignored_keywords});
 }
 
-/// Whole, or what *IMPORT names.
+/// Where *RESTART, READ goes on, or at time zero: whole, or what *IMPORT names.
 void start_from_another_job(const Command& command, Analysis& analysis) {
   const auto arguments = [&](auto import) {
     return import(command.import_from, analysis.model, analysis.communicator, analysis.domain, analysis.element_groups, analysis.current);
   };
-  if (analysis.model.state_import) {
+  if (analysis.model.restart_read) {
+    arguments(read_checkpoint_of_other_deck);
+  } else if (analysis.model.state_import) {
     const auto summary = arguments(import_state);
     if (analysis.communicator.is_root()) fmt::print("{}\n", summary);
   } else {
@@ -75,10 +81,16 @@ void refuse_import_from_nowhere(const Command& command, const Model& model) {
   if (model.state_import && command.import_from.empty() && !command.restart)
     throw InputError(fmt::format("{}: error: *IMPORT: the job to start from is not said; run with --import OLD.ckpt.h5",
                                  model.where(model.state_import->location)));
+  if (model.restart_read && command.import_from.empty() && !command.restart)
+    throw InputError(fmt::format("{}: error: *RESTART, READ: the job to go on from is not said; run with --import OLD.ckpt.h5",
+                                 model.where(model.restart_read->location)));
+  if (model.restart_read && model.state_import)
+    throw InputError(fmt::format("{}: error: *IMPORT: *RESTART, READ goes on with all of the other job; remove one",
+                                 model.where(model.state_import->location)));
 }
 
 ExitStatus run(const Command& command, const Communicator& communicator) {
-  const auto [model, warnings] = read_whole(command, broadcasting_loader(communicator));
+  auto [model, warnings] = read_whole(command, broadcasting_loader(communicator));
   if (model.steps.empty())
     throw InputError(fmt::format("{}:1: error: *STEP: the deck has no step, so there is nothing to run; add a *STEP or use "
                                  "`balocco check`", command.deck));
@@ -89,10 +101,12 @@ ExitStatus run(const Command& command, const Communicator& communicator) {
     std::fflush(stdout);
   }
   refuse_import_from_nowhere(command, model);
+  const JobPaths paths = paths_of(command);
+  if (model.restart_read && command.restart) resume_ended_step(paths.checkpoint(), communicator, model);
+  if (model.restart_read && !command.restart) prepare_restart(command.import_from, communicator, model);
   install_signal_handlers();
 
   Analysis analysis(model, communicator);
-  const JobPaths paths{command.output, model.name};
   if (command.restart) {
     read_checkpoint(paths.checkpoint(), model, communicator, analysis.domain, analysis.element_groups, analysis.current);
     analysis.take_up_checkpoint();

@@ -1,4 +1,4 @@
-// *STEP *END STEP *STATIC *DYNAMIC *BULK VISCOSITY *CONTROLS *RESTART.
+// *STEP *END STEP *STATIC *DYNAMIC *BULK VISCOSITY *CONTROLS.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -351,21 +351,6 @@ void read_controls(Builder& builder, const Block& block) {
     builder.error(block, block.lines[1].location, "further lines of *CONTROLS are not supported; remove them");
 }
 
-void read_restart(Builder& builder, const Block& block) {
-  if (block.has("FREQUENCY") && block.has("NUMBER INTERVAL")) {
-    return builder.error(block, block.location, "give FREQUENCY or NUMBER INTERVAL, not both");
-  }
-  const std::int32_t frequency = block.integer("FREQUENCY", 1), intervals = block.integer("NUMBER INTERVAL", 1);
-  if (frequency < 0 || intervals < 0)
-    return builder.error(block, block.location, "FREQUENCY and NUMBER INTERVAL must not be negative; correct it");
-  const auto unless_zero = [](std::int32_t value) { return value > 0 ? std::optional(value) : std::nullopt; };
-  const bool by_intervals = block.has("NUMBER INTERVAL");
-  auto& every = builder.in_step ? current(builder).checkpoint_frequency : builder.checkpoint_frequency;
-  auto& number = builder.in_step ? current(builder).checkpoint_number_interval : builder.checkpoint_number_interval;
-  every = by_intervals ? std::nullopt : unless_zero(frequency);
-  number = by_intervals ? unless_zero(intervals) : std::nullopt;
-}
-
 const RegisterKeyword step{
     {"STEP",
      Phase::history,
@@ -393,14 +378,6 @@ const RegisterKeyword controls{{"CONTROLS",
                                 Place::step,
                                 {choice("PARAMETERS", {"FIELD", "TIME INCREMENTATION", "LINE SEARCH"}), flag("RESET")},
                                 read_controls}};
-// OVERLAY is how checkpoints are always kept: the last whole one.
-const RegisterKeyword restart{{"RESTART",
-                               Phase::history,
-                               Place::anywhere,
-                               {required(flag("WRITE")), integer("FREQUENCY"), integer("NUMBER INTERVAL"),
-                                flag("OVERLAY"), choice("TIME MARKS", {"NO"})},
-                               read_restart}};
-
 }  // namespace
 
 }  // namespace balocco::deck

@@ -278,6 +278,13 @@ struct StateImport {
   Location location;
 };
 
+/// *RESTART, READ: the steps before are those of another job, which left its checkpoint when, or while, it did the last of them.
+struct RestartRead {
+  std::int32_t step = 0;  // number of that step
+  bool end_step = false;  // it ends where the checkpoint stands
+  Location location;
+};
+
 struct Model {
   std::string name;  // the job's name: the deck's file name without folder and extension
   std::string heading;
@@ -304,6 +311,7 @@ struct Model {
   std::vector<InitialVelocity> initial_velocities;
   std::vector<InitialField> initial_fields;
   std::optional<StateImport> state_import;
+  std::optional<RestartRead> restart_read;
   std::vector<Step> steps;
   std::vector<InitialDisplacement> initial_displacements;
 

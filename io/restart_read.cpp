@@ -1,0 +1,122 @@
+#include "restart_read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "checkpoint_file.hpp"
+#include "model/diagnostics.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// Where a checkpoint stands.
+struct Place {
+  std::int64_t step = 0;       // row of the step that is running or comes next
+  std::int64_t increment = 0;  // 0: that step has not begun
+  double step_time = 0.0, total_time = 0.0, time_increment = 0.0;
+
+  explicit Place(const Hdf5File& file)
+      : step(file.integer_attribute("/", "step")),
+        increment(file.integer_attribute("/", "increment")),
+        step_time(file.number_attribute("/", "step_time")),
+        total_time(file.number_attribute("/", "total_time")),
+        time_increment(file.number_attribute("/", "time_increment")) {}
+  bool within_step() const { return increment > 0; }
+  /// Number of the last step that has been begun.
+  std::int64_t number() const { return step + (within_step() ? 1 : 0); }
+};
+
+class Preparation {
+ public:
+  Preparation(const std::string& path, Model& model) : path_(path), model_(model), read_(*model.restart_read) {}  // has one
+
+  void run() {
+    const Place place(*open_checkpoint(path_));
+    check_step(place);
+    check_times(place);
+    if (read_.end_step) end_step(place);
+    read_.step = static_cast<std::int32_t>(place.number());
+  }
+
+ private:
+  [[noreturn]] void refuse(const std::string& text) const {
+    throw InputError(fmt::format("{}: error: *RESTART, READ: {}", model_.where(read_.location), text));
+  }
+
+  void check_step(const Place& place) const {
+    if (read_.step != 0 && read_.step != place.number())
+      refuse(fmt::format(
+          "{} stands {} step {}, not of step {}: a checkpoint holds the last state of its job alone; give STEP={}, or end that job "
+          "there (--until)",
+          path_, place.within_step() ? "within" : "at the end of", place.number(), read_.step, place.number()));
+    const auto steps = static_cast<std::int64_t>(model_.steps.size());
+    if (place.number() > steps)
+      refuse(fmt::format(
+          "{} stands in step {}, but this deck has {} steps; say the steps of the first deck again, and then the new ones", path_,
+          place.number(), steps));
+    const bool ends_here = read_.end_step || !place.within_step();
+    if (ends_here && place.number() == steps) refuse("nothing is left to do behind that step; add a *STEP");
+  }
+
+  void check_times(const Place& place) const {
+    double before = 0.0;
+    for (std::int64_t row = 0; row < place.step; ++row) before += model_.steps[row].duration();
+    constexpr double rounding = 1e-9;  // of times that were summed up over increments
+    const double there = place.total_time - place.step_time;
+    if (std::abs(before - there) > rounding * std::max(before, there))
+      refuse(
+          fmt::format("the steps before end at time {:.9g} in {}, in this deck at {:.9g}; say them as they were. A step can be "
+                      "made longer where the "
+                      "checkpoint stands within it",
+                      there, path_, before));
+    if (place.within_step() && !read_.end_step && place.step_time > model_.steps[place.step].duration())
+      refuse(fmt::format(
+          "{} stands at time {:.9g} of step {}, which takes {:.9g} in this deck; make it longer, or end it there with END STEP",
+          path_, place.step_time, place.number(), model_.steps[place.step].duration()));
+  }
+
+  /// The increment to come, which velocities are ahead by the half of, is the last of the step.
+  void end_step(const Place& place) {
+    if (!place.within_step()) return;
+    auto* const procedure = std::get_if<ExplicitProcedure>(&model_.steps[place.step].procedure);
+    if (procedure == nullptr)
+      refuse(fmt::format(
+          "step {} is no explicit step: its loads may grow with its time, so that it cannot end early; leave END STEP out",
+          place.number()));
+    const auto& next = model_.steps[place.step + 1];
+    if (next.ramps_loads())
+      refuse(
+          fmt::format("the loads of step {} start from what they reach at the end of step {}, so that it cannot end early; leave "
+                      "END STEP out, or "
+                      "put a dynamic step between",
+                      place.number() + 1, place.number()));
+    procedure->duration = place.step_time + place.time_increment;
+  }
+
+  const std::string& path_;
+  Model& model_;
+  RestartRead& read_;
+};
+
+}  // namespace
+
+void prepare_restart(const std::string& path, const Communicator& communicator, Model& model) {
+  communicator.together([&] { Preparation(path, model).run(); });
+}
+
+void resume_ended_step(const std::string& path, const Communicator& communicator, Model& model) {
+  if (!model.restart_read->end_step) return;
+  communicator.together([&] {
+    const auto file = open_checkpoint(path);
+    if (!file->has_attribute("/", ended_step)) return;  // of another deck, which its reader tells
+    const auto row = static_cast<std::size_t>(file->integer_attribute("/", ended_step) - 1);
+    model.restart_read->step = static_cast<std::int32_t>(row + 1);
+    if (auto* const procedure = row < model.steps.size() ? std::get_if<ExplicitProcedure>(&model.steps[row].procedure) : nullptr)
+      procedure->duration = file->number_attribute("/", duration_of_ended_step);
+  });
+}
+
+}  // namespace balocco
