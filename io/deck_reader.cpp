@@ -102,9 +102,11 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
   const auto tasks = schedule(builder, tokens.blocks, options);
   run_phase(builder, tasks, Phase::definitions);
   build_mesh(builder, tasks);
-  for (const Phase phase : {Phase::surfaces, Phase::sections, Phase::constraints, Phase::history}) {
-    run_phase(builder, tasks, phase);
-  }
+  run_phase(builder, tasks, Phase::surfaces);
+  if (const auto& import = builder.model.state_import;
+      import && import->update && options.move_imported_nodes && diagnostics.number_of_errors() == 0)
+    options.move_imported_nodes(builder.model);
+  for (const Phase phase : {Phase::sections, Phase::constraints, Phase::history}) run_phase(builder, tasks, phase);
   throw_if_wrong(diagnostics, tokens.files);
   const auto implied = drop_implied_joints(builder.model);
   join_rigid_clouds(builder.model);

@@ -21,6 +21,9 @@ FileLoader file_loader();
 struct ReadOptions {
   std::vector<std::string>
       ignored_keywords;  // keywords (without asterisk) that warn and are skipped instead of being refused
+  /// *IMPORT, UPDATE=YES: moves the nodes that Model::state_import names to where another job left them, before anything is made of
+  /// their coordinates. Empty: they stay where the deck says.
+  std::function<void(Model&)> move_imported_nodes;
 };
 
 struct ReadResult {

@@ -5,6 +5,7 @@
 #include "constraints/constraint.hpp"
 #include "elements/element_type.hpp"
 #include "elements/surface_nodes.hpp"
+#include "model/diagnostics.hpp"
 #include "model_digest.hpp"
 
 namespace balocco {
@@ -112,6 +113,47 @@ const ModelIdentity::ContactPair* ModelIdentity::contact_pair(const std::string&
 std::int64_t ModelIdentity::constraint(std::uint64_t digest) const {
   const auto found = constraints_.find(digest);
   return found == constraints_.end() ? -1 : found->second;
+}
+
+void refuse_import(const std::string& path, const Model& model, const std::string& what) {
+  throw InputError(fmt::format("{}: error: *IMPORT: {} has {}", model.where(model.state_import->location), path, what));
+}
+
+std::int64_t refuse_other_step(const Hdf5File& file, const std::string& path, const Model& model) {
+  const auto& asked = model.state_import->step;
+  const auto step = file.integer_attribute("/", "step");
+  const bool finished = file.integer_attribute("/", "increment") == 0;
+  if (asked && (*asked != step || !finished))
+    refuse_import(path, model,
+                  fmt::format("the state {} step {}, not of the end of step {}; end that job there (--until), or leave STEP out",
+                              finished ? "of the end of" : "within", finished ? step : step + 1, *asked));
+  return step;
+}
+
+void refuse_other_nodes(const ModelIdentity& identity, const std::string& path, const Model& model) {
+  for (const auto row : model.state_import->nodes) {
+    const auto id = model.nodes.id[row], old = identity.row_of_node(id);
+    if (old < 0) refuse_import(path, model, fmt::format("no node {}; import only what both models have", id));
+    const auto there = identity.coordinates(old), here = model.nodes.coordinates[row];
+    if (there != here)
+      refuse_import(
+          path, model,
+          fmt::format("node {} at ({:g}, {:g}, {:g}), this deck at ({:g}, {:g}, {:g}); both jobs must have the same mesh there", id,
+                      there[0], there[1], there[2], here[0], here[1], here[2]));
+  }
+}
+
+void refuse_other_elements(const ModelIdentity& identity, const std::string& path, const Model& model, ImportedSections sections) {
+  for (const auto& [table_row, row] : model.state_import->elements) {
+    const auto& table = model.elements[table_row];
+    const auto* const old = identity.element(table.type->name, table.id[row]);
+    const auto name = fmt::format("{} element {}", table.type->name, table.id[row]);
+    if (old == nullptr) refuse_import(path, model, fmt::format("no {}; import only what both models have", name));
+    if (old->nodes != digest_of_element(model, table, row))
+      refuse_import(path, model, fmt::format("{} with other nodes; both jobs must have the same mesh there", name));
+    if (sections == ImportedSections::same && old->section != digest_of_section(model, model.sections[table.section[row]]))
+      refuse_import(path, model, fmt::format("{} with another section or material; give it the same in both jobs", name));
+  }
 }
 
 }  // namespace balocco

@@ -51,4 +51,15 @@ class ModelIdentity {
   std::map<std::uint64_t, std::int64_t> constraints_;
 };
 
+/// Whether imported elements must have the sections and materials that they had.
+enum class ImportedSections { same, any };
+
+/// Of what Model::state_import names in the checkpoint at `path`.
+/// @throws InputError where the checkpoint has no such nodes or elements, or others, which the message names
+void refuse_other_nodes(const ModelIdentity& identity, const std::string& path, const Model& model);
+void refuse_other_elements(const ModelIdentity& identity, const std::string& path, const Model& model, ImportedSections sections);
+/// @return the number of the last step of the checkpoint, counted from 1, where it is finished
+std::int64_t refuse_other_step(const Hdf5File& file, const std::string& path, const Model& model);
+[[noreturn]] void refuse_import(const std::string& path, const Model& model, const std::string& what);
+
 }  // namespace balocco

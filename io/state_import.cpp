@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <optional>
+#include <unordered_map>
 
 #include "checkpoint_file.hpp"
 #include "constraints/constraint.hpp"
@@ -31,8 +32,8 @@ class Importer {
       file_ = open_checkpoint(path_);
       read_header();
       identity_.emplace(*file_);
-      check_nodes();
-      check_elements();
+      refuse_other_nodes(*identity_, path_, model_);
+      refuse_other_elements(*identity_, path_, model_, ImportedSections::same);
       read_rows_of_constraints();
     });
     ParallelFile tables(path_, communicator_, ParallelFile::Mode::read);
@@ -45,9 +46,7 @@ class Importer {
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& text) const {
-    throw InputError(fmt::format("{}: error: *IMPORT: {} has {}", model_.where(import_.location), path_, text));
-  }
+  [[noreturn]] void refuse(const std::string& text) const { refuse_import(path_, model_, text); }
   bool is_imported(std::int32_t node_row) const { return std::ranges::binary_search(import_.nodes, node_row); }
 
   /// A node that a body is to carry from where it is now.
@@ -57,8 +56,6 @@ class Importer {
   };
 
   void read_header();
-  void check_nodes() const;
-  void check_elements() const;
   void read_rows_of_constraints();
   void read_nodes(ParallelFile& tables);
   void read_histories(ParallelFile& tables);
@@ -78,6 +75,7 @@ class Importer {
   State& state_;
   std::unique_ptr<Hdf5File> file_;
   std::optional<ModelIdentity> identity_;
+  std::unordered_map<std::int64_t, std::int32_t> row_of_id_;  // of nodes, where bodies go on
   std::int64_t old_step_ = 0;
   std::size_t bodies_that_go_on_ = 0;
 };
@@ -86,34 +84,7 @@ void Importer::read_header() {
   state_.dynamic = file_->integer_attribute("/", "dynamic") != 0;
   state_.linear = file_->integer_attribute("/", "linear") != 0;
   if (state_.linear) refuse("geometrically linear steps only, so that it is no state to go on from; give them NLGEOM");
-  old_step_ = file_->integer_attribute("/", "step");  // the number of the last one, counted from 1, where it is finished
-  const bool finished = file_->integer_attribute("/", "increment") == 0;
-  if (import_.step && (*import_.step != old_step_ || !finished))
-    refuse(fmt::format("the state {} step {}, not of the end of step {}; end that job there (--until), or leave STEP out",
-                       finished ? "of the end of" : "within", finished ? old_step_ : old_step_ + 1, *import_.step));
-}
-
-void Importer::check_nodes() const {
-  for (const auto row : import_.nodes) {
-    const auto id = model_.nodes.id[row], old = identity_->row_of_node(id);
-    if (old < 0) refuse(fmt::format("no node {}; import only what both models have", id));
-    const auto there = identity_->coordinates(old), here = model_.nodes.coordinates[row];
-    if (there != here)
-      refuse(fmt::format("node {} at ({:g}, {:g}, {:g}), this deck at ({:g}, {:g}, {:g}); both jobs must have the same mesh there", id, there[0],
-                         there[1], there[2], here[0], here[1], here[2]));
-  }
-}
-
-void Importer::check_elements() const {
-  for (const auto& [table_row, row] : import_.elements) {
-    const auto& table = model_.elements[table_row];
-    const auto* const old = identity_->element(table.type->name, table.id[row]);
-    const auto name = fmt::format("{} element {}", table.type->name, table.id[row]);
-    if (old == nullptr) refuse(fmt::format("no {}; import only what both models have", name));
-    if (old->nodes != digest_of_element(model_, table, row)) refuse(fmt::format("{} with other nodes; both jobs must have the same mesh there", name));
-    if (old->section != digest_of_section(model_, model_.sections[table.section[row]]))
-      refuse(fmt::format("{} with another section or material; give it the same in both jobs", name));
-  }
+  old_step_ = refuse_other_step(*file_, path_, model_);
 }
 
 void Importer::read_rows_of_constraints() {
@@ -225,8 +196,8 @@ std::vector<std::int32_t> Importer::take_over_nodes(std::int64_t old_body, std::
   const auto offsets = file_->read(fmt::format("/rigid_{}_offsets", old_body));
   auto& mine = state_.rigid_bodies[body].nodes;
   for (std::size_t i = 0; i < nodes.size() / 2; ++i) {
-    const auto row = model_.nodes.row_of_id.find(identity_->node_id(nodes[2 * i]));
-    if (row == model_.nodes.row_of_id.end()) continue;
+    const auto row = row_of_id_.find(identity_->node_id(nodes[2 * i]));
+    if (row == row_of_id_.end()) continue;
     const auto carries = [&](const RigidBodyState& other) { return std::ranges::binary_search(other.nodes, row->second, {}, &RigidNode::node); };
     const auto carrier = std::ranges::find_if(state_.rigid_bodies, carries);
     if (carrier != state_.rigid_bodies.end() && carrier != state_.rigid_bodies.begin() + static_cast<std::ptrdiff_t>(body)) continue;
@@ -256,6 +227,8 @@ std::vector<Importer::Attachment> Importer::go_on(std::int64_t old_body, std::si
 
 void Importer::place_bodies() {
   const auto motions = file_->exists("/rigid_bodies") ? file_->read("/rigid_bodies") : std::vector<double>{};
+  for (std::int32_t row = 0; row < model_.nodes.size() && !state_.rigid_bodies.empty(); ++row)
+    row_of_id_.emplace(model_.nodes.id[row], row);
   std::vector<Attachment> attachments;
   std::vector<std::size_t> new_bodies;
   for (std::size_t b = 0; b < state_.rigid_bodies.size(); ++b) {

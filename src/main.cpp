@@ -15,6 +15,7 @@
 #include "deck_reader.hpp"
 #include "deck_writer.hpp"
 #include "door.hpp"
+#include "imported_mesh.hpp"
 #include "info.hpp"
 #include "job_observer.hpp"
 #include "model/check.hpp"
@@ -58,7 +59,16 @@ void print_warnings(const std::vector<std::string>& warnings) {
 JobPaths paths_of(const Command& command) { return {command.output, std::filesystem::path(command.deck).stem().string()}; }
 
 ReadResult read_whole(const Command& command, const FileLoader& loader) {
-  return read_deck(command.deck, loader, {.ignored_keywords = command.ignored_keywords});
+  ReadOptions options{.ignored_keywords = command.ignored_keywords, .move_imported_nodes = {}};
+  if (command.restart)
+    options.move_imported_nodes = [&](Model& model) {
+      move_imported_nodes(paths_of(command).checkpoint(), ImportedShape::own_coordinates, model);
+    };
+  else if (!command.import_from.empty())
+    options.move_imported_nodes = [&](Model& model) {
+      move_imported_nodes(command.import_from, ImportedShape::positions_of_other_job, model);
+    };
+  return read_deck(command.deck, loader, options);
 }
 
 /// Where *RESTART, READ goes on, or at time zero: whole, or what *IMPORT names.
@@ -68,7 +78,11 @@ void start_from_another_job(const Command& command, Analysis& analysis) {
   };
   if (analysis.model.restart_read) {
     arguments(read_checkpoint_of_other_deck);
-  } else if (analysis.model.state_import) {
+  } else if (const auto& import = analysis.model.state_import; import && !import->state) {
+    if (analysis.communicator.is_root())
+      fmt::print("Imported from {}: the places of {} nodes, without stress\n", command.import_from, import->nodes.size());
+    return;
+  } else if (import) {
     const auto summary = arguments(import_state);
     if (analysis.communicator.is_root()) fmt::print("{}\n", summary);
   } else {

@@ -1,4 +1,5 @@
-// *IMPORT, *IMPORT ELSET, *IMPORT NSET: what starts from the last state of another job. The mesh itself stands in the deck.
+// *IMPORT, *IMPORT ELSET, *IMPORT NSET: what starts from the last state of another job. The mesh itself stands in the deck, as it
+// was before any deformation.
 #include <algorithm>
 
 #include "deck/builder.hpp"
@@ -11,7 +12,8 @@ namespace {
 
 StateImport& state_import(Builder& builder, const Block& block) {
   auto& import = builder.model.state_import;
-  if (!import) import = StateImport{.step = {}, .elements = {}, .nodes = {}, .location = block.location};
+  if (!import)
+    import = StateImport{.state = true, .update = false, .step = {}, .elements = {}, .nodes = {}, .location = block.location};
   return *import;
 }
 
@@ -37,19 +39,25 @@ void add_elements(Builder& builder, const Block& block, StateImport& import) {
 }
 
 void read_import(Builder& builder, const Block& block) {
-  if (block.has("STATE") && block.value("STATE") == "NO")
+  const bool state = block.value("STATE", "YES") == "YES", update = block.value("UPDATE") == "YES";
+  if (state && update)
+    builder.error(
+        block, block.location,
+        "UPDATE=YES with STATE=YES is not supported: laws here find stresses from the deformation since the reference "
+        "configuration, so that stresses go on exactly with UPDATE=NO alone; import with UPDATE=NO, or the mesh alone with "
+        "STATE=NO");
+  if (!state && !update)
     builder.error(block, block.location,
-                  "STATE=NO is not supported: elements here keep the configuration in which they have no stress; import with STATE=YES");
-  if (block.value("UPDATE") == "YES")
-    builder.error(block, block.location,
-                  "UPDATE=YES is not supported: elements here keep their reference configuration, so that strains go on and stresses are "
-                  "exact; import with UPDATE=NO");
+                  "STATE=NO with UPDATE=NO is not supported: elements here would find the stresses of the deformation that is "
+                  "imported; import the deformed mesh free of stress with UPDATE=YES");
   for (const char* parameter : {"INCREMENT", "INTERVAL", "ITERATION"})
     if (block.has(parameter))
       builder.error(block, block.location,
                     std::string(parameter) + ": a checkpoint holds the last state of its job alone; leave it out, or end that job there");
   if (block.lines.empty()) builder.error(block, block.location, "sets of elements to import are missing; name them on data lines");
   auto& import = state_import(builder, block);
+  import.state = state;
+  import.update = update;
   if (block.has("STEP")) import.step = static_cast<std::int32_t>(block.integer("STEP", 0));
   add_elements(builder, block, import);
 }
@@ -68,14 +76,14 @@ void read_nodes(Builder& builder, const Block& block) {
 
 const RegisterKeyword import_keyword({
     .keyword = "IMPORT",
-    .phase = Phase::constraints,
+    .phase = Phase::surfaces,
     .parameters = {choice("STATE", {"YES", "NO"}), required(choice("UPDATE", {"YES", "NO"})), integer("STEP"), integer("INCREMENT"),
                    integer("INTERVAL"), integer("ITERATION")},
     .handler = read_import,
 });
 
-const RegisterKeyword import_elset({.keyword = "IMPORT ELSET", .phase = Phase::constraints, .handler = read_elements});
-const RegisterKeyword import_nset({.keyword = "IMPORT NSET", .phase = Phase::constraints, .handler = read_nodes});
+const RegisterKeyword import_elset({.keyword = "IMPORT ELSET", .phase = Phase::surfaces, .handler = read_elements});
+const RegisterKeyword import_nset({.keyword = "IMPORT NSET", .phase = Phase::surfaces, .handler = read_nodes});
 
 }  // namespace
 

@@ -272,6 +272,8 @@ struct Units {
 
 /// What starts from the last state of another job (*IMPORT); everything else starts as the deck says.
 struct StateImport {
+  bool state = true;    // STATE: stresses and histories are imported, not the deformed mesh alone
+  bool update = false;  // UPDATE: the imported positions become the reference configuration
   std::optional<std::int32_t> step;   // number of the step that the state is of
   std::vector<ElementRef> elements;   // sorted
   std::vector<std::int32_t> nodes;    // rows, sorted: those of the elements among them

@@ -11,7 +11,7 @@ foreach(case strut struck_pendulum braked_rotor rubbing_slider slider_crank on_t
                    ${CMAKE_CURRENT_BINARY_DIR}/connector_${case})
   set_tests_properties(connector_${case} PROPERTIES LABELS verification TIMEOUT 120 PROCESSORS 2)
 endforeach()
-foreach(case driving_from_an_equilibrium importing_parts)
+foreach(case driving_from_an_equilibrium importing_parts importing_the_mesh bodies_keep_their_nodes)
   add_test(NAME import_${case}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/import_cases.py ${case} $<TARGET_FILE:balocco>
                    ${CMAKE_CURRENT_BINARY_DIR}/import_${case})

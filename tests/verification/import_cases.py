@@ -108,6 +108,63 @@ def importing_parts(balocco, folder):
     check("a job to start from is wanted", float("--import OLD.ckpt.h5" in run("refused", asked + drive(""), 1, status=2)), 1.0, 0.0)
 
 
+COLUMN = "*NODE, NSET=ALL\n" + "".join(f"{4 * k + i + 1}, {x}, {y}, {0.5 * k}\n" for k in range(3) for i, (x, y) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))))
+COLUMN += """*NSET, NSET=BOTTOM
+1, 2, 3, 4
+*NSET, NSET=TOP
+9, 10, 11, 12
+*ELEMENT, TYPE=C3D8R, ELSET=COLUMN
+1, 1, 2, 3, 4, 5, 6, 7, 8
+2, 5, 6, 7, 8, 9, 10, 11, 12
+*SOLID SECTION, ELSET=COLUMN, MATERIAL=RUBBER
+*MATERIAL, NAME=RUBBER
+*ELASTIC
+1E6, 0.
+*DENSITY
+1000.
+"""
+
+
+def pulled(distance, more=""):
+    return f"*STEP, NLGEOM, NAME=PULL{more}\n*STATIC\n0.5, 1.\n*BOUNDARY\nBOTTOM, 1, 3\nTOP, 1, 2\nTOP, 3, 3, {distance}\n*OUTPUT, FIELD, FREQUENCY=99, PRECISION=DOUBLE\n*NODE OUTPUT\nU, RF\n*END STEP\n"
+
+
+def importing_the_mesh(balocco, folder):
+    """STATE=NO, UPDATE=YES: a column that was stretched to 1.25 of its height is a new one of that height, free of stress."""
+    source = Job("stretched", balocco, "1", folder)
+    source.run(COLUMN + pulled(0.25))
+    asked = COLUMN + "*IMPORT, STATE=NO, UPDATE=YES, STEP=1\nCOLUMN\n" + pulled(1e-6, "-1") + pulled(2e-6, "-2")
+    arguments = ("--import", str(pathlib.Path(folder) / "stretched.ckpt.h5"))
+    jobs = []
+    for name, ranks, parts in (("anew_1", "1", (arguments,)), ("anew_2", "2", (arguments,)), ("in_two", "1", ((*arguments, "--until", "PULL-1"), ("--restart",)))):
+        job = Job(name, balocco, ranks, folder)
+        for part in parts:
+            job.run(asked, arguments=part)
+        jobs.append(job)
+        check(f"{name}: height", job.mesh("C3D8R")[0][:, 2].max(), 1.25, 1e-12)
+        check(f"{name}: displacements count from there", np.abs(job.frame("U", 0)).max(), 0.0, 0.0)
+        check(f"{name}: force E A u / height", job.frame("RF", -1, 2)[8:, 2].sum(), 1e6 * 2e-6 / 1.25, 1e-5)
+    check("restarted: the same to rounding", np.abs(jobs[0].frame("U", -1, 2) - jobs[2].frame("U", -1, 2)).max(), 0.0, 1e-15)
+    told = Job("refused", balocco, "1", folder).run(asked.replace("STEP=1", "STEP=2"), expected_status=2, arguments=arguments)
+    check("another step is told", float("not of the end of step 2" in told), 1.0, 0.0)
+
+
+def bodies_keep_their_nodes(balocco, folder):
+    """Nodes that a step of the other job has tied to a body go on with it, though the new deck does not say so."""
+    foot = "*NODE\n" + "".join(f"{100 + i}, {x}, {y}, -1.\n{110 + i}, {x}, {y}, -2.\n" for i, (x, y) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))))
+    foot += "*ELEMENT, TYPE=C3D8R, ELSET=FOOT\n10, 110, 111, 112, 113, 100, 101, 102, 103\n*SOLID SECTION, ELSET=FOOT, MATERIAL=RUBBER\n"
+    foot += "*NODE, NSET=REFERENCE\n200, 0.5, 0.5, -1.5\n*RIGID BODY, REF NODE=200, ELSET=FOOT\n"
+    tied = pulled(0.1).replace("BOTTOM, 1, 3\n", "REFERENCE, 1, 6\n*RIGID BODY, REF NODE=200, TIE NSET=BOTTOM\n*BOUNDARY\n")
+    Job("tied", balocco, "1", folder).run(COLUMN + foot + tied)
+    move = "*STEP\n*DYNAMIC, EXPLICIT\n, 0.01\n*BOUNDARY\nREFERENCE, 1, 2\nREFERENCE, 4, 6\n*BOUNDARY, TYPE=VELOCITY\nREFERENCE, 3, 3, 1.\n*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*END STEP\n"
+    for ranks in ("1", "2"):
+        job = Job(f"moved_{ranks}", balocco, ranks, folder)
+        job.run(COLUMN + foot + "*IMPORT, UPDATE=NO\nCOLUMN, FOOT\n*IMPORT NSET\nREFERENCE\n" + move,
+                arguments=("--import", str(pathlib.Path(folder) / "tied.ckpt.h5")))
+        u = job.frame("U", -1)[:4, 2]
+        check("they go where it goes", np.abs(u - 0.01).max(), 0.0, 1e-12)
+
+
 if __name__ == "__main__":
-    {case.__name__: case for case in (driving_from_an_equilibrium, importing_parts)}[sys.argv[1]](*sys.argv[2:])
+    {case.__name__: case for case in (driving_from_an_equilibrium, importing_parts, importing_the_mesh, bodies_keep_their_nodes)}[sys.argv[1]](*sys.argv[2:])
     sys.exit(1 if failures else 0)
