@@ -204,14 +204,27 @@ void read_elements(Builder& builder, const Block& block) {
   if (can_lock(block.value("TYPE"))) builder.locking_hybrids.push_back({&block, table, first, builder.model.elements[table].size()});
 }
 
-/// Adds a copy of an element with its node ids shifted.
+/// Order of the nodes of a solid of which the nodes of a mirror image make a solid that is not inside out; empty: not known.
+std::vector<int> mirrored_order(const ElementType& type) {
+  if (type.section != Section::Kind::solid) return {};
+  switch (type.nodes) {
+    case 4: return {0, 2, 1, 3};
+    case 6: return {0, 2, 1, 3, 5, 4};
+    case 8: return {0, 3, 2, 1, 4, 7, 6, 5};
+    case 10: return {0, 2, 1, 3, 6, 5, 4, 7, 9, 8};
+    case 20: return {0, 3, 2, 1, 4, 7, 6, 5, 11, 10, 9, 8, 15, 14, 13, 12, 16, 19, 18, 17};
+    default: return {};
+  }
+}
+
+/// Adds a copy of an element with its node ids shifted. `order`: of the nodes; empty: as they are.
 std::optional<ElementRef> copy_element(Builder& builder, const Block& block, Location location, ElementRef old,
-                                       std::int64_t id, std::int64_t node_shift) {
+                                       std::int64_t id, std::int64_t node_shift, const std::vector<int>& order = {}) {
   const ElementTable& elements = builder.model.elements[old.table];
   const int count = elements.type->nodes;
   std::vector<std::int32_t> nodes;
   for (int n = 0; n < count; ++n) {
-    const std::int32_t row = elements.connectivity[old.row * count + n];
+    const std::int32_t row = elements.connectivity[old.row * count + (order.empty() ? n : order[n])];
     const std::int64_t local = builder.model.nodes.id[row] - builder.scope->node_offset.value_or(0);
     const auto shifted = builder.require_node(local + node_shift, block, location);
     if (!shifted) return std::nullopt;
@@ -259,7 +272,13 @@ void copy_elements(Builder& builder, const Block& block) {
   const std::int64_t change = block.integer("ELEMENT SHIFT", 0), node_shift = block.integer("SHIFT NODES", 0);
   for (const auto element : old) {
     const std::int64_t id = builder.element_id(element) - builder.scope->element_offset.value_or(0) + change;
-    const auto added = copy_element(builder, block, block.location, element, id, node_shift);
+    const auto& type = *builder.model.elements[element.table].type;
+    const auto order = block.has("REFLECT") ? mirrored_order(type) : std::vector<int>{};
+    if (block.has("REFLECT") && order.empty())
+      return builder.error(
+          block, block.location,
+          fmt::format("REFLECT turns solids right side out, and {} is none; leave it out for a set without solids", type.name));
+    const auto added = copy_element(builder, block, block.location, element, id, node_shift, order);
     if (added && set >= 0) builder.add_to_element_set(set, *added);
   }
 }
@@ -267,12 +286,12 @@ void copy_elements(Builder& builder, const Block& block) {
 const RegisterKeyword element{
     {"ELEMENT", Phase::elements, Place::model, {required(name("TYPE")), name("ELSET"), text("INPUT")}, read_elements}};
 const RegisterKeyword elgen{{"ELGEN", Phase::elements, Place::model, {name("ELSET")}, generate_elements}};
-const RegisterKeyword elcopy{
-    {"ELCOPY",
-     Phase::elements,
-     Place::model,
-     {required(integer("ELEMENT SHIFT")), required(integer("SHIFT NODES")), required(name("OLD SET")), name("NEW SET")},
-     copy_elements}};
+const RegisterKeyword elcopy{{"ELCOPY",
+                              Phase::elements,
+                              Place::model,
+                              {required(integer("ELEMENT SHIFT")), required(integer("SHIFT NODES")), required(name("OLD SET")),
+                               name("NEW SET"), flag("REFLECT")},
+                              copy_elements}};
 
 }  // namespace
 

@@ -1,4 +1,4 @@
-// Nodes and elements: *NODE *SYSTEM *NGEN *NFILL *NCOPY *ELEMENT *ELGEN *ELCOPY.
+// Nodes: *NODE *SYSTEM *NGEN *NFILL *NCOPY.
 #include "deck/mesh.hpp"
 
 #include <fmt/format.h>
@@ -7,6 +7,8 @@
 #include <cmath>
 
 #include "deck/builder.hpp"
+#include "deck/node_maps.hpp"
+
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
@@ -179,12 +181,28 @@ void fill_nodes(Builder& builder, const Block& block) {
   }
 }
 
-/// *NCOPY, SHIFT: copies of a set, moved and turned.
+/// How *NCOPY finds the place of a copy. Empty: an error was told.
+std::function<Point(const Point&)> copy_map(Builder& builder, const Block& block) {
+  const int kinds = (block.has("SHIFT") ? 1 : 0) + (block.has("REFLECT") ? 1 : 0) + (block.has("POLE") ? 1 : 0);
+  if (kinds != 1) {
+    builder.error(block, block.location, "say how the copies are placed, once: SHIFT, REFLECT=POINT, LINE or MIRROR, or POLE");
+    return {};
+  }
+  if (block.has("REFLECT")) return reflection_of(builder, block);
+  if (block.has("POLE")) return pole_of(builder, block);
+  const auto shift = shift_of(builder, block);
+  if (!shift) return {};
+  return [shift = *shift](const Point& point) { return shift.move(point); };
+}
+
+/// *NCOPY: copies of a set, moved and turned, or reflected.
 void copy_nodes(Builder& builder, const Block& block) {
   std::vector<std::int32_t> old;
   if (!builder.nodes_of(block.value("OLD SET"), block, block.location, old)) return;
-  const auto shift = shift_of(builder, block);
-  if (!shift) return;
+  const auto map = copy_map(builder, block);
+  if (!map) return;
+  if (block.has("MULTIPLE") && !block.has("SHIFT"))
+    return builder.error(block, block.location, "MULTIPLE goes with SHIFT; leave it out");
   const std::int32_t set = block.has("NEW SET") ? builder.node_set_row(block.value("NEW SET")) : -1;
   const std::int64_t change = block.integer("CHANGE NUMBER", 0);
   const std::int32_t multiple = std::max(1, block.integer("MULTIPLE", 1));
@@ -192,7 +210,7 @@ void copy_nodes(Builder& builder, const Block& block) {
   for (const auto row : old) points.push_back(builder.model.nodes.coordinates[row]);
   for (std::int32_t copy = 1; copy <= multiple; ++copy) {
     for (std::size_t n = 0; n < old.size(); ++n) {
-      points[n] = shift->move(points[n]);
+      points[n] = map(points[n]);
       const std::int64_t id = builder.model.nodes.id[old[n]] - builder.scope->node_offset.value_or(0) + copy * change;
       const auto added = add_node(builder, block, block.location, id, points[n]);
       if (added && set >= 0) builder.add_to_node_set(set, *added);
@@ -209,7 +227,8 @@ const RegisterKeyword ncopy{{"NCOPY",
                              Phase::nodes,
                              Place::model,
                              {required(integer("CHANGE NUMBER")), required(name("OLD SET")), name("NEW SET"),
-                              required(flag("SHIFT")), integer("MULTIPLE")},
+                              flag("SHIFT"),
+                              choice("REFLECT", {"POINT", "LINE", "MIRROR"}), flag("POLE"), integer("MULTIPLE")},
                              copy_nodes}};
 
 }  // namespace

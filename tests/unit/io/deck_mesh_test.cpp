@@ -51,6 +51,55 @@ TEST(DeckMesh, FillAndCopy) {
   EXPECT_EQ(at(model, 102)[2], 5.0);
 }
 
+TEST(DeckMesh, ReflectedCopies) {
+  const auto model =
+      read(
+          "*NODE, NSET=A\n1, 1., 2., 3.\n2, 4., 2., 3.\n*NCOPY, OLD SET=A, CHANGE NUMBER=10, REFLECT=POINT\n1., 1., 1.\n"
+          "*NCOPY, OLD SET=A, CHANGE NUMBER=20, REFLECT=LINE\n0., 0., 0., 0., 0., 2.\n"
+          "*NCOPY, OLD SET=A, CHANGE NUMBER=30, REFLECT=MIRROR\n0., 1., 0., 5., 1., 0.\n0., 1., 7.\n"
+          "*NCOPY, OLD SET=A, CHANGE NUMBER=40, POLE\n2\n" +
+          bar + bars)
+          .model;
+  EXPECT_EQ(at(model, 11), (Point{1.0, 0.0, -1.0}));
+  EXPECT_EQ(at(model, 21), (Point{-1.0, -2.0, 3.0}));
+  EXPECT_EQ(at(model, 31), (Point{1.0, 0.0, 3.0}));
+  EXPECT_EQ(at(model, 41), (Point{-2.0, 2.0, 3.0}));
+}
+
+TEST(DeckMesh, MappedNodes) {
+  const auto map = [](const std::string& line) {
+    return at(read("*NODE\n1, 2., 90., 30.\n2, 1., 0., 0.\n*NODE, NSET=A\n7, 2., 90., 30.\n*NMAP, NSET=A, TYPE=" + line + "\n" +
+                   bar + bars)
+                  .model,
+              7);
+  };
+  const auto expect_near = [](const Point& value, const Point& expected) {
+    for (int i = 0; i < 3; ++i) EXPECT_NEAR(value[i], expected[i], 1e-14);  // of numbers up to 90
+  };
+  expect_near(map("RECTANGULAR\n1., 2., 3."), {3.0, 92.0, 33.0});
+  expect_near(map("RECTANGULAR\n0., 0., 0., 0., 1., 0.\n-1., 0., 0."), {-90.0, 2.0, 30.0});
+  expect_near(map("CYLINDRICAL\n0., 0., 1., 0., 0., 2.\n1., 0., 1.\n1., 2., 0.1"), {-2.0, 0.0, 4.0});
+  expect_near(map("SPHERICAL\n0., 0., 0., 0., 0., 1.\n1., 0., 0."), {0.0, 2.0 * std::sqrt(0.75), 1.0});
+  expect_near(map("DIAMOND\n0., 0., 0., 1., 0., 0.\n1., 1., 0., 0., 0., 2."),
+              {2.0 + 90.0 * std::sqrt(0.5), 90.0 * std::sqrt(0.5), 30.0});
+  expect_near(map("ROTATION\n0., 0., 0., 0., 0., 1.\n1., 0., 0.\n90."), {-89.0, 1.0, 30.0});
+  expect_near(map("TRANSLATION\n0., 0., 0., 0., 5., 0.\n10."), {2.0, 100.0, 30.0});
+  expect_near(map("SCALE, DEFINITION=NODES\n2\n2., 0.5, 3."), {3.0, 45.0, 90.0});
+}
+
+TEST(DeckMesh, MirroredElementsAreRightSideOut) {
+  const auto model =
+      read(
+          "*NODE, NSET=ALL\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n5, 0., 0., 1.\n6, 1., 0., 1.\n"
+          "7, 1., 1., 1.\n8, 0., 1., 1.\n*NCOPY, OLD SET=ALL, CHANGE NUMBER=100, REFLECT=MIRROR\n0., 0., -1., 1., 0., -1.\n0., 1., "
+          "-1.\n"
+          "*ELEMENT, TYPE=C3D8R, ELSET=E\n1, 1, 2, 3, 4, 5, 6, 7, 8\n"
+          "*ELCOPY, OLD SET=E, ELEMENT SHIFT=10, SHIFT NODES=100, NEW SET=F, REFLECT\n*ELSET, ELSET=G\nE, F\n"
+          "*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*SOLID SECTION, ELSET=G, MATERIAL=M\n")
+          .model;
+  EXPECT_EQ(model.elements[0].connectivity[9], row_of(model, 104));
+}
+
 TEST(DeckMesh, CylindricalInputAndLocalSystem) {
   const auto model = read(
                          "*SYSTEM\n10., 0., 0., 10., 1., 0.\n9., 0., 0.\n*NODE\n1, 1., 2., 3.\n*SYSTEM\n"
