@@ -106,6 +106,20 @@ def equilibrium(balocco, ranks, folder):
     rolling(balocco, ranks, folder, loads)
 
 
+def check_loads(folder, standing):
+    """The table of loads where the drive starts: wheels less what lies outside their bearings (rim, brake, tyre: 190 to 200 N), struts."""
+    sys.path.insert(0, os.path.join(HERE, "..", "..", "jobs", "report"))
+    import car_loads
+
+    loads = car_loads.table(os.path.join(folder, "drive.inp"), os.path.join(folder, "rolling.h5"))
+    for name, load in standing.items():
+        wheel = name.removeprefix("contact_TREAD_").split("_ROAD")[0]
+        outside = load - loads[f"wheel_centre_{wheel.lower()}_Fz"][0]
+        assert 180.0 < outside < 210.0, (wheel, outside)
+    for side in ("left", "right"):
+        assert 3200.0 < loads[f"strut_mount_front_{side}_Fz"][0] < 3600.0, loads
+
+
 def rolling(balocco, ranks, folder, standing, duration=2.0):
     """The first milliseconds of the drive, from the equilibrium: wheels turn forward. What they carry is told: these tyres are polygons."""
     text, count = re.subn(r"(?m)^, 400$", f", {duration}", open(os.path.join(folder, "drive.inp")).read())
@@ -117,6 +131,7 @@ def rolling(balocco, ranks, folder, standing, duration=2.0):
     residual = float(re.search(r"step DRIVE starts with .* = (\S+) \(", log)[1])
     print(f"out of balance where the drive starts: {residual:.3g} of the loads")
     assert residual < 2e-3, residual  # what held the car along: these tyres lean on the corners of polygons
+    check_loads(folder, standing)
     last = results["step_1/history"]
     for name, load in standing.items():
         wheel = name.removeprefix("contact_TREAD_").split("_ROAD")[0]

@@ -6,20 +6,26 @@ namespace balocco::car {
 namespace {
 
 constexpr double gravity = 9.81e-3;  // mm/ms2
-constexpr double period = 1e6;       // ms of a static step: so slow that dampers and rubbers push with nothing
+// ms of a static step. Dampers push there too, by the increment of motion over that of time, as in Abaqus: so slowly it is nothing.
+constexpr double period = 1e6;
 
 const char* side_of(const std::string& wheel) {
   return wheel.ends_with("LEFT") ? "LEFT" : "RIGHT";
 }
 
-/// What every step tells over its time: hubs, roads, mounts, struts, tyres.
+/// What every step tells over its time: hubs and roads, tyres, and the connectors by which they load the car.
 void write_history(DeckText& deck) {
-  for (const auto* wheel : wheel_names) deck.line("*NODE OUTPUT, NSET=HUB_{}\nU, UR, V, RF", wheel);
-  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*NODE OUTPUT, NSET=ROAD_{}\nU3, RF", side);
-  for (const auto* side : {"LEFT", "RIGHT"})
-    deck.line("*NODE OUTPUT, NSET=STRUT_MOUNT_FRONT_{}\nU\n*NODE OUTPUT, NSET=SPRING_SEAT_REAR_{}\nU\n*ELEMENT OUTPUT, ELSET=STRUT_FRONT_{}\nCTF, CU\n*ELEMENT OUTPUT, ELSET=SPRING_REAR_{}\nCTF, CU",
-               side, side, side, side);
-  for (const auto* wheel : wheel_names) deck.line("*CONTACT OUTPUT, SLAVE=TREAD_{}, MASTER=ROAD_{}_SURFACE\nCFN, CFT", wheel, side_of(wheel));
+  for (const auto* wheel : wheel_names) {
+    deck.line("*NODE OUTPUT, NSET=HUB_{}\nU, UR, V, RF\n*NODE OUTPUT, NSET=AXLE_{}\nU, UR", wheel, wheel);
+    deck.line("*ELEMENT OUTPUT, ELSET=BEARING_{}\nCTF", wheel);
+    deck.line("*CONTACT OUTPUT, SLAVE=TREAD_{}, MASTER=ROAD_{}_SURFACE\nCFN, CFT", wheel, side_of(wheel));
+  }
+  for (const std::string side : {"LEFT", "RIGHT"}) {
+    deck.line("*NODE OUTPUT, NSET=ROAD_{}\nU, RF", side);
+    for (const auto* mount : {"STRUT_MOUNT_FRONT_", "SPRING_SEAT_REAR_"}) deck.line("*NODE OUTPUT, NSET={}{}\nU, UR", mount, side);
+    for (const auto* connector : {"TOP_MOUNT_", "STRUT_FRONT_", "SPRING_REAR_", "DAMPER_REAR_"})
+      deck.line("*ELEMENT OUTPUT, ELSET={}{}\nCTF, CU", connector, side);
+  }
 }
 
 /// Writes the steps of the equilibrium; each says all that acts in it.
