@@ -32,7 +32,7 @@ namespace {
 enum ExitStatus { completed = 0, different = 1, bad_input = 2, analysis_failed = 3, stopped = 4, system_trouble = 5 };
 
 struct Command {
-  std::string deck, output = ".", last_step, spec, model_file, drive_file, picture, results, other_results;
+  std::string deck, output = ".", last_step, spec, model_file, drive_file, obstacle, picture, results, other_results;
   double relative = 0.0;
   std::vector<std::string> ignored_keywords;
   bool restart = false;
@@ -208,7 +208,7 @@ int build_tyre_deck(const Command& command) {
 int build_car_deck(const Command& command) {
   const auto text = file_loader()(command.spec);
   if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of a car's description (TOML)", command.spec));
-  const auto car = build_car(*text, command.spec, file_loader());
+  const auto car = build_car(*text, command.spec, file_loader(), command.obstacle);
   const auto model = write_deck(car.tyres) + car.car;
   write_text(command.model_file, model + car.equilibrium);
   if (!command.drive_file.empty()) write_text(command.drive_file, model + car.drive);
@@ -270,6 +270,9 @@ int dispatch(int argc, char** argv) {
   car_command->add_option("spec", command.spec, "Car description (TOML)")->required();
   car_command->add_option("--output", command.model_file, "Deck of the equilibrium to write")->required();
   car_command->add_option("--drive", command.drive_file, "Deck of the drive to write, to be run with --import of the equilibrium");
+
+  car_command->add_option("--obstacle", command.obstacle, "Obstacle of the drive, instead of the description's: comfort or pothole")
+      ->check(CLI::IsMember({"comfort", "pothole"}));
 
   auto* info_command = app.add_subcommand("info", "Show what a result file holds");
   info_command->add_option("results", command.results, "JOB.h5")->required();

@@ -1,9 +1,17 @@
-# The car's equilibrium: tyres seated and inflated, gravity and springs, the road rises, the car stands.
+# The car's equilibrium: tyres seated and inflated, gravity and springs, the road rises, the car stands. With BALOCCO_OBSTACLE=comfort or
+# BALOCCO_OBSTACLE=pothole it drives on from there, over the comfort obstacle or with its left wheels through the pothole.
 # Sourced by jobs/run.sh with the number of ranks and the folder of the results.
 ranks=$1
-output=$2
+obstacle=${BALOCCO_OBSTACLE:-comfort}
+output=$2/$obstacle
+mkdir -p "$output"
 
-"$BALOCCO_BUILD/balocco" car "$balocco_root/jobs/car/car.toml" --output "$output/car.inp" | tee "$output/car.txt"
+"$BALOCCO_BUILD/balocco" car "$balocco_root/jobs/car/car.toml" --obstacle "$obstacle" --output "$output/car.inp" \
+  --drive "$output/drive.inp" | tee "$output/car.txt"
 "$PYTHON" "$balocco_root/jobs/report/car_picture.py" "$output/car.inp" "$output/car.png"
 "${BALOCCO_MPIRUN[@]}" -n "$ranks" "$BALOCCO_BUILD/balocco" run "$output/car.inp" --output "$output"
 "$PYTHON" "$balocco_root/jobs/report/car_equilibrium.py" "$output/car.h5" | tee "$output/equilibrium.txt"
+if [ -n "${BALOCCO_OBSTACLE:-}" ]; then
+  "${BALOCCO_MPIRUN[@]}" -n "$ranks" "$BALOCCO_BUILD/balocco" run "$output/drive.inp" --import "$output/car.ckpt.h5" --output "$output"
+  "$PYTHON" "$balocco_root/jobs/report/car_loads.py" "$output/drive.inp" "$output/drive.h5" "$output/loads.csv" | tee "$output/loads.txt"
+fi

@@ -234,6 +234,24 @@ void read_rolling_and_output(SpecTable& top, TyreSpec& spec) {
 
 }  // namespace
 
+namespace {
+
+void read_pothole(SpecTable& road_table, double ahead, PotholeSpec& pothole) {
+  auto table = road_table.table("pothole");
+  pothole.depth = table.number("depth", Bounds::positive("mm"));
+  pothole.length = table.number("length", Bounds::positive("mm"));
+  pothole.start = table.number("start", Bounds::positive("mm"));
+  pothole.ramp = table.number("ramp", Bounds::positive("mm"));
+  pothole.fillet = table.number("fillet", Bounds::not_negative("mm"));
+  const double round = pothole.fillet * std::tan(0.5 * std::atan2(pothole.depth, pothole.ramp));  // of either piece at an edge
+  if (2.0 * round > std::hypot(pothole.depth, pothole.ramp)) table.fault("fillet", "two fillets are longer than a ramp; make them smaller");
+  if (2.0 * (pothole.ramp + round) > pothole.length) table.fault("ramp", "two ramps are longer than the hole; make them shorter");
+  if (pothole.start + pothole.length + round >= ahead) table.fault("start", "the road ends before the hole does; lengthen [road] ahead");
+  table.refuse_unknown();
+}
+
+}  // namespace
+
 void read_road(SpecTable& top, RoadSpec& road) {
   auto table = top.table("road");
   road.clearance = table.number("clearance", Bounds::positive("mm"));
@@ -253,6 +271,7 @@ void read_road(SpecTable& top, RoadSpec& road) {
     if (road.obstacle_start + road.obstacle_length + 2.0 * road.foot_fillet >= road.ahead)
       table.fault("ahead", "the road ends before the obstacle does; make it longer");
   }
+  if (table.has("pothole")) read_pothole(table, road.ahead, road.pothole);
   table.refuse_unknown();
 }
 

@@ -93,12 +93,19 @@ struct StaticSpec {
   bool stabilize = false;
 };
 
+/// A hole across the road with a straight ramp at each end, its edges rounded.
+struct PotholeSpec {
+  double depth = 0.0, length = 0.0, start = 0.0;  // mm; depth 0: none; length from edge to edge at the top
+  double ramp = 0.0, fillet = 0.0;                // mm: length of a ramp along the road, radius of the edges
+};
+
 struct RoadSpec {
   double clearance = 0.0;                                                     // mm below the moulded tread
   double behind = 0.0, ahead = 0.0;                                           // mm of flat road
   double obstacle_height = 0.0, obstacle_length = 0.0, obstacle_start = 0.0;  // mm; height 0: none
   double top_fillet = 0.0, foot_fillet = 0.0;                                 // mm
   double friction = 0.0;
+  PotholeSpec pothole;
 };
 
 struct RollingSpec {

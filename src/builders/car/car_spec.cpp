@@ -176,7 +176,7 @@ std::vector<MountSpec> read_mounts(SpecTable& top, const char* kind, bool heavy)
 const std::vector<std::string> member_names{"sill", "hinge_pillar", "b_pillar", "side_frame", "front_rail", "upper_rail", "rail_extension", "rear_rail", "cross_member",
                                             "cowl", "front_frame", "bumper", "dash_beam", "roof_header", "roof_bow", "waist_rail"};
 
-CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name) {
+CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const std::string& obstacle) {
   const auto file = parse_spec(toml_text, file_name);
   SpecFaults faults(file_name);
   SpecTable top(&file, "", faults);
@@ -194,7 +194,7 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   read_gauges(top, spec);
   spec.masses = read_mounts(top, "mass", true);
   spec.mounts = read_mounts(top, "mount", false);
-  read_chassis(top, spec.chassis);
+  read_chassis(top, obstacle, spec.chassis);
   top.refuse_unknown();
   faults.throw_if_any();
   return spec;

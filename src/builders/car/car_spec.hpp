@@ -91,7 +91,7 @@ struct CarSpec {
 /// Members that every body has, in the order of the reader's messages.
 extern const std::vector<std::string> member_names;
 
-/// @throws InputError with every fault found.
-CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name);
+/// `obstacle` overrides the description's; empty: as described. @throws InputError with every fault found.
+CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const std::string& obstacle);
 
 }  // namespace balocco::car

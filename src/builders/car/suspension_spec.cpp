@@ -2,6 +2,9 @@
 
 #include <fmt/format.h>
 
+#include <tuple>
+#include <utility>
+
 #include "builders/spec_table.hpp"
 
 namespace balocco::car {
@@ -97,10 +100,16 @@ void read_engine(SpecTable& top, EngineSpec& engine) {
   table.refuse_unknown();
 }
 
-void read_drive(SpecTable& top, DriveSpec& drive) {
+void read_drive(SpecTable& top, const std::string& obstacle, DriveSpec& drive) {
   auto table = top.table("drive");
-  drive.speed = table.number("speed", Bounds::positive("mm/ms"));
-  drive.duration = table.number("duration", Bounds::positive("ms"));
+  drive.obstacle = table.text("obstacle", {"comfort", "pothole"});
+  if (!obstacle.empty()) drive.obstacle = obstacle;
+  for (const auto* name : {"comfort", "pothole"}) {
+    auto course = table.table(name);
+    const double speed = course.number("speed", Bounds::positive("mm/ms")), duration = course.number("duration", Bounds::positive("ms"));
+    course.refuse_unknown();
+    if (drive.obstacle == name) std::tie(drive.speed, drive.duration) = std::pair(speed, duration);
+  }
   drive.frames = table.integer("frames", 1, 100000);
   drive.history_interval = table.number("history_interval", Bounds::positive("ms"));
   table.refuse_unknown();
@@ -108,15 +117,16 @@ void read_drive(SpecTable& top, DriveSpec& drive) {
 
 }  // namespace
 
-void read_chassis(SpecTable& top, ChassisSpec& chassis) {
+void read_chassis(SpecTable& top, const std::string& obstacle, ChassisSpec& chassis) {
   read_front(top, chassis.front);
   read_rear(top, chassis.rear);
   read_engine(top, chassis.engine);
   read_road(top, chassis.road);
-  read_drive(top, chassis.drive);
+  read_drive(top, obstacle, chassis.drive);
+  if (chassis.drive.obstacle != "comfort") chassis.road.obstacle_height = 0.0;
+  if (chassis.drive.obstacle != "pothole") chassis.road.pothole.depth = 0.0;
   if (chassis.drive.speed * chassis.drive.duration >= chassis.road.ahead)
     top.fault("drive", "the car leaves the road; shorten the duration or lengthen [road] ahead");
-
 }
 
 }  // namespace balocco::car

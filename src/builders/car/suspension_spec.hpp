@@ -51,6 +51,7 @@ struct EngineSpec {
 };
 
 struct DriveSpec {
+  std::string obstacle;                           // comfort: under both sides; pothole: under the left wheels alone
   double speed = 0.0;                             // mm/ms
   double duration = 0.0, history_interval = 0.0;  // ms
   int frames = 0;
@@ -64,6 +65,7 @@ struct ChassisSpec {
   DriveSpec drive;
 };
 
-void read_chassis(SpecTable& top, ChassisSpec& chassis);
+/// `obstacle` overrides the description's; empty: as described.
+void read_chassis(SpecTable& top, const std::string& obstacle, ChassisSpec& chassis);
 
 }  // namespace balocco::car

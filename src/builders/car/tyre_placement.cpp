@@ -101,7 +101,9 @@ TyreFacts add_tyres(const TyreSpec& spec, const RoadSpec& road, const WheelPlace
   model.interactions.push_back({.name = "GRIP", .friction = road.friction});
   for (const auto* side : {"LEFT", "RIGHT"}) {
     const Point foot{places.centre[0][0], side[0] == 'L' ? places.centre[0][1] : places.centre[1][1], places.centre[0][2] - facts.outer_radius - places.clearance};
-    const auto master = add_road(road, std::string("ROAD_") + side, foot, first_id, model);
+    auto below = road;
+    if (side[0] == 'R') below.pothole.depth = 0.0;  // only the left wheels go through it
+    const auto master = add_road(below, std::string("ROAD_") + side, foot, first_id, model);
     for (const auto* axle : {"FRONT_", "REAR_"}) {
       ContactPair pair;
       pair.slave = surface_row(model, std::string("TREAD_") + axle + side);

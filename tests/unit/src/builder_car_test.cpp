@@ -118,7 +118,7 @@ TEST(CarSpec, FaultsNameLineAndCure) {
 }
 
 TEST(CarSprings, CarryTheSprungWeightAtDesignHeight) {
-  const auto spec = read_car_spec(main_spec(), "car.toml");
+  const auto spec = read_car_spec(main_spec(), "car.toml", "");
   BodyMesh mesh;
   const auto sprung = sprung_mass(spec, mesh);
   const auto weights = corner_weights(spec, sprung);
@@ -142,6 +142,28 @@ TEST(CarTyres, AreFourAlikeAtTheirWheels) {
   EXPECT_NEAR(middles[0][1] - middles[1][1], 1385.0, 1e-6);
   EXPECT_NEAR(middles[0][0] - middles[2][0], 2460.0, 1e-6);
   EXPECT_EQ(model.contact_pairs.size(), 4u);
+}
+
+TEST(CarBuilder, APotholeLiesBelowTheLeftWheelsAloneAndTheObstacleBelowBothSides) {
+  const auto extremes = [](const CarDeck& deck, std::size_t surface) {
+    std::array<double, 2> found{};  // lowest, highest
+    for (const auto& piece : deck.tyres.surfaces[surface].analytical->profile) {
+      found[0] = std::min(found[0], piece.end[1]);
+      found[1] = std::max(found[1], piece.end[1]);
+    }
+    return found;
+  };
+  const auto roads = [](const CarDeck& deck) {
+    return std::pair(deck.tyres.contact_pairs[0].master, deck.tyres.contact_pairs[2].master);  // left, right
+  };
+  const auto comfort = built(main_spec()), hole = build_car(main_spec(), BALOCCO_CAR_SPEC, load, "pothole");
+  const auto [left, right] = roads(comfort);
+  EXPECT_EQ(extremes(comfort, left), (std::array<double, 2>{0.0, 25.0}));
+  EXPECT_EQ(extremes(comfort, right), (std::array<double, 2>{0.0, 25.0}));
+  EXPECT_EQ(extremes(hole, left), (std::array<double, 2>{-114.0, 0.0}));
+  EXPECT_EQ(extremes(hole, right), (std::array<double, 2>{0.0, 0.0}));
+  EXPECT_NE(hole.drive.find("ROAD_LEFT, 1, -11.11\n"), std::string::npos);
+  EXPECT_NE(comfort.drive.find("ROAD_LEFT, 1, -13.9\n"), std::string::npos);
 }
 
 }  // namespace

@@ -313,6 +313,28 @@ TEST(RoadProfile, IsConnectedAndStandsAtItsHeight) {
   EXPECT_FALSE(profile[3].counter_clockwise);
 }
 
+TEST(RoadProfile, APotholeHasRampsAndRoundEdges) {
+  RoadSpec road{.behind = 500.0, .ahead = 4000.0};
+  road.pothole = {.depth = 114.0, .length = 2700.0, .start = 300.0, .ramp = 200.0, .fillet = 30.0};
+  const auto profile = road_profile(road);
+  ASSERT_EQ(profile.size(), 9u);
+  double deepest = 0.0;
+  for (std::size_t i = 1; i < profile.size(); ++i) {
+    EXPECT_EQ(profile[i].start, profile[i - 1].end);
+    deepest = std::min(deepest, profile[i].end[1]);
+    if (profile[i].kind != ProfileSegment::Kind::arc) continue;
+    const auto before = profile[i - 1], arc = profile[i];  // lines run into arcs without a kink
+    const double along = before.end[0] - before.start[0], up = before.end[1] - before.start[1];
+    EXPECT_NEAR(std::hypot(arc.end[0] - arc.centre[0], arc.end[1] - arc.centre[1]), 30.0, 1e-9);
+    EXPECT_NEAR((arc.start[0] - arc.centre[0]) * along + (arc.start[1] - arc.centre[1]) * up, 0.0, 1e-9 * std::hypot(along, up));
+  }
+  EXPECT_DOUBLE_EQ(deepest, -114.0);
+  const auto& ramp = profile[2];
+  EXPECT_NEAR((ramp.end[1] - ramp.start[1]) / (ramp.end[0] - ramp.start[0]), -114.0 / 200.0, 1e-12);
+  EXPECT_FALSE(profile[1].counter_clockwise);
+  EXPECT_TRUE(profile[3].counter_clockwise);
+}
+
 TEST(SectionPicture, DrawsEveryQuad) {
   const auto spec = read_tyre_spec(sample_tyre(2), "t.toml");
   const auto section = make_section(spec);
