@@ -69,7 +69,8 @@ void ElementGroup::set_mass_scale(std::span<const double> scale) {
 
 void ElementGroup::record_increments(bool record) {
   records_increments_ = record;
-  if (record) recorded_increments_.resize(static_cast<std::size_t>(padded_size_));
+  // Kernels without masses of their own bound no increment, and record none.
+  if (record) recorded_increments_.assign(static_cast<std::size_t>(padded_size_), StableIncrement{}.increment);
 }
 
 StableIncrement ElementGroup::smallest_recorded_increment() const {

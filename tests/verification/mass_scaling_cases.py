@@ -10,7 +10,9 @@ import sys
 
 import numpy as np
 
+from constraint_cases import KINEMATIC, bar_with_end
 from explicit_cases import UNIT_CUBE, Job, check, failures
+from import_cases import BUSHING, LOADS
 
 STEEL = "*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E11, 0.3\n*DENSITY\n7800.\n"
 SPEED = math.sqrt(2.1e11 / 7800.0)
@@ -241,7 +243,25 @@ def steps_and_ranks(run):
     check("same bits when restarted within a step", run.same(whole, run.job(text, 2, "within", ("--restart",))), 1.0, 0.0)
 
 
-CASES = {case.__name__: case for case in (tiny_element, kinds, vibration, heavier_matter, weight, keeps_its_increment, steps_and_ranks)}
+def with_linkages(run):
+    """Beside a coupling, a bushing, point masses and inertias, which follow masses that change every third increment: the same bits on two
+    ranks and after a restart, which makes everything anew; the energy balance holds."""
+    rest = bar_with_end(KINEMATIC, 1, LOADS.format("3e3"), nlgeom=", NLGEOM", extra=BUSHING)
+    text = rest[:rest.index("*STEP")] + "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n*VARIABLE MASS SCALING, DT=1.2e-5, TYPE=UNIFORM, FREQUENCY=3\n"
+    text += LOADS.format("-2e3") + "*OUTPUT, FIELD, NUMBER INTERVAL=3, PRECISION=DOUBLE\n*NODE OUTPUT\nU, V, UR\n*OUTPUT, HISTORY, FREQUENCY=10\n"
+    text += "*ENERGY OUTPUT\nALLKE, ALLIE, ALLMW, ALLWK, ETOTAL\n*END STEP\n"
+    whole = run.job(text, 1, "whole")
+    total, largest = (whole.history("energy", name)[1] for name in ("ETOTAL", "ALLKE"))
+    check("energy drift", np.abs(total - total[0]).max() / largest.max(), 0.0, 1e-5)
+    check("mass is added", float(status(whole, "ADDED_MASS_%")[-1] > 10.0), 1.0, 0.0)
+    check("the same bits on two ranks", run.same(whole, run.job(text, 2, "two")), 1.0, 0.0)
+    (run.folder / "within").mkdir(parents=True)
+    (run.folder / "within" / f"{run.case}.ctl").write_text("stop\n")
+    run.job(text, 1, "within", expected_status=4)
+    check("the same bits when restarted", run.same(whole, run.job(text, 2, "within", ("--restart",))), 1.0, 0.0)
+
+
+CASES = {case.__name__: case for case in (tiny_element, kinds, vibration, heavier_matter, weight, keeps_its_increment, steps_and_ranks, with_linkages)}
 
 if __name__ == "__main__":
     name, program, folder = sys.argv[1:4]
