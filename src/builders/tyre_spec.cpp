@@ -244,9 +244,11 @@ void read_pothole(SpecTable& road_table, double ahead, PotholeSpec& pothole) {
   pothole.ramp = table.number("ramp", Bounds::positive("mm"));
   pothole.fillet = table.number("fillet", Bounds::not_negative("mm"));
   const double round = pothole.fillet * std::tan(0.5 * std::atan2(pothole.depth, pothole.ramp));  // of either piece at an edge
-  if (2.0 * round > std::hypot(pothole.depth, pothole.ramp)) table.fault("fillet", "two fillets are longer than a ramp; make them smaller");
+  if (2.0 * round > std::hypot(pothole.depth, pothole.ramp))
+    table.fault("fillet", "two fillets are longer than a ramp; make them smaller");
   if (2.0 * (pothole.ramp + round) > pothole.length) table.fault("ramp", "two ramps are longer than the hole; make them shorter");
-  if (pothole.start + pothole.length + round >= ahead) table.fault("start", "the road ends before the hole does; lengthen [road] ahead");
+  if (pothole.start + pothole.length + round >= ahead)
+    table.fault("start", "the road ends before the hole does; lengthen [road] ahead");
   table.refuse_unknown();
 }
 

@@ -17,22 +17,26 @@ std::string upper(std::string name) {
 const GaugeSpec& gauge_of(const CarSpec& spec, const Part& part) {
   const auto found = spec.gauges.find(part.gauge);
   if (found == spec.gauges.end())
-    throw InputError(fmt::format("{}:1: error: [gauge] {}: this part has no gauge; add it to the parts of one", spec.file_name, part.gauge));
+    throw InputError(
+        fmt::format("{}:1: error: [gauge] {}: this part has no gauge; add it to the parts of one", spec.file_name, part.gauge));
   return found->second;
 }
 
 void write_mass(const MountSpec& mount, const std::string& name, std::int64_t node, DeckText& deck) {
   deck.line("*ELEMENT, TYPE=MASS, ELSET={}\n{}, {}\n*MASS, ELSET={}\n{:g}", name, deck.next_element(), node, name, mount.mass);
   const auto own = box_inertia(mount.mass, mount.size);
-  deck.line("*ELEMENT, TYPE=ROTARYI, ELSET=I_{}\n{}, {}\n*ROTARY INERTIA, ELSET=I_{}\n{:.6g}, {:.6g}, {:.6g}", name, deck.next_element(), node, name, own[0], own[1], own[2]);
+  deck.line("*ELEMENT, TYPE=ROTARYI, ELSET=I_{}\n{}, {}\n*ROTARY INERTIA, ELSET=I_{}\n{:.6g}, {:.6g}, {:.6g}", name,
+            deck.next_element(), node, name, own[0], own[1], own[2]);
 }
 
 void write_mount(const CarSpec& spec, const BodyMesh& mesh, const MountSpec& mount, std::set<int>& taken, DeckText& deck) {
   auto carriers = mesh.free_nodes(mount.parts, mount.place, mount.reach);
   std::erase_if(carriers, [&](int node) { return taken.contains(node); });
   if (carriers.size() < 3)
-    throw InputError(fmt::format("{}:1: error: [{}.{}] reach: {} free nodes of its parts lie within {:g} mm of it, and three are needed; reach farther, or name more parts",
-                                 spec.file_name, mount.mass > 0.0 ? "mass" : "mount", mount.name, carriers.size(), mount.reach));
+    throw InputError(
+        fmt::format("{}:1: error: [{}.{}] reach: {} free nodes of its parts lie within {:g} mm of it, and three are needed; reach "
+                    "farther, or name more parts",
+                    spec.file_name, mount.mass > 0.0 ? "mass" : "mount", mount.name, carriers.size(), mount.reach));
   taken.insert(carriers.begin(), carriers.end());
   const auto name = upper(mount.name);
   const auto node = deck.named_node(name, mount.place);
@@ -74,7 +78,8 @@ void add_part(const CarSpec& spec, const BodyMesh& mesh, const Part& part, Inert
   const auto& gauge = gauge_of(spec, part);
   const auto material = std::ranges::find(spec.materials, gauge.material, &SheetMaterial::name);
   for (const auto& corners : part.quadrilaterals) {
-    const auto &a = mesh.nodes()[corners[0]], &b = mesh.nodes()[corners[1]], &c = mesh.nodes()[corners[2]], &d = mesh.nodes()[corners[3]];
+    const auto &a = mesh.nodes()[corners[0]], &b = mesh.nodes()[corners[1]], &c = mesh.nodes()[corners[2]],
+               &d = mesh.nodes()[corners[3]];
     inertia.add(0.5 * length(cross(c - a, d - b)) * gauge.thickness * material->density, 0.25 * (a + b + c + d));
   }
 }
@@ -89,7 +94,8 @@ void write_body(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
     deck.line("*NODE, NSET=N_{}", part.name);
     for (int node = part.first_node; node < part.first_node + part.nodes; ++node) deck.node(deck.next_node(), mesh.nodes()[node]);
     deck.line("*ELEMENT, TYPE=S4R, ELSET={}", part.name);
-    for (const auto& q : part.quadrilaterals) deck.line("{}, {}, {}, {}, {}", deck.next_element(), q[0] + 1, q[1] + 1, q[2] + 1, q[3] + 1);
+    for (const auto& q : part.quadrilaterals)
+      deck.line("{}, {}, {}, {}, {}", deck.next_element(), q[0] + 1, q[1] + 1, q[2] + 1, q[3] + 1);
   }
   deck.chapter("GAUGES");
   for (const auto& part : mesh.parts()) {
@@ -131,11 +137,13 @@ void write_mounts(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
 void write_materials(const CarSpec& spec, DeckText& deck) {
   deck.chapter("MATERIALS");
   for (const auto& material : spec.materials) {
-    deck.line("*MATERIAL, NAME={}\n*DENSITY\n{:g}\n*ELASTIC\n{:g}, {:g}", upper(material.name), material.density, material.modulus, material.poisson);
+    deck.line("*MATERIAL, NAME={}\n*DENSITY\n{:g}\n*ELASTIC\n{:g}, {:g}", upper(material.name), material.density, material.modulus,
+              material.poisson);
     if (material.plastic.empty()) continue;
     deck.line("*PLASTIC");
     for (const auto& [stress, strain] : material.plastic) deck.line("{:g}, {:g}", stress, strain);
-    if (material.rate_reference > 0.0) deck.line("*RATE DEPENDENT, TYPE=POWER LAW\n{:g}, {:g}", material.rate_reference, material.rate_exponent);
+    if (material.rate_reference > 0.0)
+      deck.line("*RATE DEPENDENT, TYPE=POWER LAW\n{:g}, {:g}", material.rate_reference, material.rate_exponent);
   }
 }
 

@@ -32,7 +32,9 @@ class Cells {
     return {static_cast<std::int64_t>(std::floor(place[0] / size_)), static_cast<std::int64_t>(std::floor(place[1] / size_)),
             static_cast<std::int64_t>(std::floor(place[2] / size_))};
   }
-  static std::int64_t key(const std::array<std::int64_t, 3>& c) { return (c[0] * 73856093) ^ (c[1] * 19349663) ^ (c[2] * 83492791); }
+  static std::int64_t key(const std::array<std::int64_t, 3>& c) {
+    return (c[0] * 73856093) ^ (c[1] * 19349663) ^ (c[2] * 83492791);
+  }
 
   const std::vector<Vector>& nodes_;
   double size_;
@@ -42,7 +44,11 @@ class Cells {
 }  // namespace
 
 void BodyMesh::add(const Sheet& sheet) {
-  Part part{.name = sheet.part, .gauge = sheet.part, .first_node = static_cast<int>(nodes_.size()), .nodes = sheet.rows * sheet.columns, .quadrilaterals = {}};
+  Part part{.name = sheet.part,
+            .gauge = sheet.part,
+            .first_node = static_cast<int>(nodes_.size()),
+            .nodes = sheet.rows * sheet.columns,
+            .quadrilaterals = {}};
   for (const char* side : {"_LEFT", "_RIGHT"})
     if (part.gauge.ends_with(side)) part.gauge.resize(part.gauge.size() - std::string(side).size());
   nodes_.insert(nodes_.end(), sheet.points.begin(), sheet.points.end());
@@ -52,7 +58,8 @@ void BodyMesh::add(const Sheet& sheet) {
   for (int row = 0; row + 1 < sheet.rows; ++row)
     for (int column = 0; column + (sheet.closed ? 0 : 1) < sheet.columns; ++column) {
       const int ahead = sheet.turned ? 0 : 1, aside = 1 - ahead;
-      part.quadrilaterals.push_back({node(row, column), node(row + ahead, column + aside), node(row + 1, column + 1), node(row + aside, column + ahead)});
+      part.quadrilaterals.push_back(
+          {node(row, column), node(row + ahead, column + aside), node(row + 1, column + 1), node(row + aside, column + ahead)});
     }
   parts_.push_back(std::move(part));
 }
@@ -75,7 +82,8 @@ int BodyMesh::weld(const std::string& first, const std::string& second, double g
     for (int b = 0; b < static_cast<int>(parts_.size()); ++b) {
       if (a == b || parts_[a].gauge != first || parts_[b].gauge != second) continue;
       const auto side = [](const Part& part) { return part.name.substr(part.gauge.size()); };
-      if (side(parts_[a]).empty() || side(parts_[b]).empty() || side(parts_[a]) == side(parts_[b])) joined += weld_pair(a, b, gap, pitch);
+      if (side(parts_[a]).empty() || side(parts_[b]).empty() || side(parts_[a]) == side(parts_[b]))
+        joined += weld_pair(a, b, gap, pitch);
     }
   return joined;
 }
@@ -136,7 +144,8 @@ std::vector<Weld> BodyMesh::welds() const {
 std::vector<int> BodyMesh::free_nodes(const std::vector<std::string>& parts, const Vector& place, double reach) const {
   std::vector<int> found;
   for (const auto& part : parts_) {
-    const bool wanted = std::any_of(parts.begin(), parts.end(), [&](const auto& name) { return name == part.name || name == part.gauge; });
+    const bool wanted =
+        std::any_of(parts.begin(), parts.end(), [&](const auto& name) { return name == part.name || name == part.gauge; });
     for (int node = part.first_node; wanted && node < part.first_node + part.nodes; ++node)
       if (weld_of_[node] < 0 && length(nodes_[node] - place) <= reach) found.push_back(node);
   }

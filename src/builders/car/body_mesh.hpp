@@ -28,7 +28,8 @@ class BodyMesh {
   void add_both(const Sheet& left);
 
   /// Joins two parts wherever they touch within `gap`, at least `pitch` apart. A weld may take a third and a fourth part in, but no
-  /// part twice: every weld stays a small system of its own. Names without sides join parts of the same side, or both to the middle.
+  /// part twice: every weld stays a small system of its own. Names without sides join parts of the same side, or both to the
+  /// middle.
   /// @return how many places were joined.
   int weld(const std::string& first, const std::string& second, double gap, double pitch);
 

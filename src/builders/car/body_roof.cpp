@@ -28,7 +28,8 @@ std::vector<Vector> frame_edges(const CarSpec& spec, const BodyShape& shape, dou
   return edges;
 }
 
-Sheet sheet_across(const std::string& part, const std::vector<Vector>& edges, double size, const std::function<Vector(const Vector&, double)>& line) {
+Sheet sheet_across(const std::string& part, const std::vector<Vector>& edges, double size,
+                   const std::function<Vector(const Vector&, double)>& line) {
   std::vector<double> rows;
   for (std::size_t row = 0; row < edges.size(); ++row) rows.push_back(static_cast<double>(row));
   return sheet_on(part, rows, stations({-1.0, 0.0, 1.0}, size / edges.front()[1]),
@@ -45,7 +46,8 @@ void add_roof(const CarSpec& spec, const BodyShape& shape, BodyMesh& mesh) {
   mesh.add(sheet_across("ROOF", edges, size, [&](const Vector& edge, double part) { return across_roof(spec, edge, part); }));
   // The screen stands on the cowl below and on the roof's front edge above.
   const double foot = spec.body.firewall.back()[0] + 0.5 * spec.members.at("cowl").outer.depth;
-  const auto screen = frame_edges(spec, shape, spec.body.pillar_front + 0.5 * spec.members.at("hinge_pillar").outer.width, edges.front()[0]);
+  const auto screen =
+      frame_edges(spec, shape, spec.body.pillar_front + 0.5 * spec.members.at("hinge_pillar").outer.width, edges.front()[0]);
   const double low = screen.front()[2], high = edges.front()[2];
   mesh.add(sheet_across("WINDSCREEN", screen, size, [&](const Vector& edge, double part) {
     const double up = (edge[2] - low) / (high - low), crown = profile.roof(edges.front()[0]) - high;
@@ -55,25 +57,38 @@ void add_roof(const CarSpec& spec, const BodyShape& shape, BodyMesh& mesh) {
   const Curve edge(edges);
   const auto header = spec.members.at("roof_header").outer, bow = spec.members.at("roof_bow").outer;
   const double half = 0.5 * header.width + header.flange;
-  const std::array<std::pair<const char*, double>, 4> bows{{{"ROOF_HEADER_FRONT", half}, {"ROOF_BOW_FRONT", edge.length() / 3.0},
-                                                            {"ROOF_BOW_REAR", 2.0 * edge.length() / 3.0}, {"ROOF_HEADER_REAR", edge.length() - half}}};
+  const std::array<std::pair<const char*, double>, 4> bows{{{"ROOF_HEADER_FRONT", half},
+                                                            {"ROOF_BOW_FRONT", edge.length() / 3.0},
+                                                            {"ROOF_BOW_REAR", 2.0 * edge.length() / 3.0},
+                                                            {"ROOF_HEADER_REAR", edge.length() - half}}};
   for (const auto& [name, at] : bows) {
     const auto line = Curve::of(-1.0, 1.0, [&, at = at](double part) { return across_roof(spec, edge.at(at), part); });
-    mesh.add(hat_along(name, frames(line, size, [](const Vector&) { return Vector{0.0, 0.0, -1.0}; }), std::string(name).find("BOW") != std::string::npos ? bow : header, size));
+    mesh.add(hat_along(name,
+                       frames(line, size,
+                              [](const Vector&) {
+                                return Vector{0.0, 0.0, -1.0};
+                              }),
+                       std::string(name).find("BOW") != std::string::npos ? bow : header, size));
   }
 }
 
 void add_rear(const CarSpec& spec, const BodyShape& shape, BodyMesh& mesh) {
   const auto& profile = spec.profile;
   const auto& frame = spec.members.at("side_frame").outer;
-  const double size = spec.mesh_size, bottom = spec.body.rear_floor_height, top = profile.hatch_sill, edge = 0.5 * frame.width + frame.flange;
+  const double size = spec.mesh_size, bottom = spec.body.rear_floor_height, top = profile.hatch_sill,
+               edge = 0.5 * frame.width + frame.flange;
   const auto half_width = [&](double z) { return shape.skin(profile.tail(z) + edge, z, frame.depth)[1]; };
   const auto tail = [&](double z, double part) { return Vector{profile.tail(z), part * half_width(z), z}; };
   mesh.add(sheet_on("REAR_PANEL", stations({bottom, top}, size), stations({-1.0, 0.0, 1.0}, size / half_width(bottom)), tail));
   const auto& bumper = spec.members.at("bumper").outer;
   const auto tube = [&](const char* name, double z, double behind, const Hat& section) {
     const auto line = Curve::of(-1.0, 1.0, [&](double part) { return tail(z, part) + Vector{behind, 0.0, 0.0}; });
-    mesh.add(tube_along(name, frames(line, size, [](const Vector&) { return Vector{-1.0, 0.0, 0.0}; }), section.width, section.depth, size));
+    mesh.add(tube_along(name,
+                        frames(line, size,
+                               [](const Vector&) {
+                                 return Vector{-1.0, 0.0, 0.0};
+                               }),
+                        section.width, section.depth, size));
   };
   tube("REAR_BUMPER_BEAM", bottom + 0.5 * bumper.width, -0.5 * bumper.depth, bumper);
   const auto& sill = spec.members.at("front_frame").outer;

@@ -16,7 +16,8 @@ double smooth_step(double a, double b, double x) {
 
 Vector BodyShape::skin_normal(double x, double z) const {
   constexpr double step = 1.0;  // mm
-  const double along = (side(x + step, z) - side(x - step, z)) / (2.0 * step), up = (side(x, z + step) - side(x, z - step)) / (2.0 * step);
+  const double along = (side(x + step, z) - side(x - step, z)) / (2.0 * step),
+               up = (side(x, z + step) - side(x, z - step)) / (2.0 * step);
   return unit(Vector{-along, 1.0, -up});
 }
 
@@ -35,12 +36,14 @@ double BodyShape::well(double x, double y) const {
 }
 
 double BodyShape::floor_half_width(double x) const {
-  return body_.floor_half_width - (body_.floor_half_width - body_.rear_floor_half_width) * smooth_step(body_.kick_front, body_.kick_rear - 200.0, x);
+  return body_.floor_half_width -
+         (body_.floor_half_width - body_.rear_floor_half_width) * smooth_step(body_.kick_front, body_.kick_rear - 200.0, x);
 }
 
 Vector BodyShape::floor(double x, double station) const {
   const double height = body_.tunnel_height * (1.0 - smooth_step(body_.kick_front + 200.0, body_.kick_front, x));
-  const std::array<double, 6> aside{floor_half_width(x), body_.tunnel_foot, body_.tunnel_crown, -body_.tunnel_crown, -body_.tunnel_foot, -floor_half_width(x)};
+  const std::array<double, 6> aside{floor_half_width(x), body_.tunnel_foot,  body_.tunnel_crown,
+                                    -body_.tunnel_crown, -body_.tunnel_foot, -floor_half_width(x)};
   const std::array<double, 6> up{0.0, 0.0, height, height, 0.0, 0.0};
   const int piece = std::clamp(static_cast<int>(station), 0, 4);
   const double part = station - piece, y = aside[piece] + part * (aside[piece + 1] - aside[piece]);

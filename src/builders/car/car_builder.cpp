@@ -29,7 +29,8 @@ BodyMesh make_body(const CarSpec& spec, std::vector<WeldLine>& welds) {
   std::vector<std::string> faults;
   for (const auto& [first, second, places] : welds)
     if (places == 0)
-      faults.push_back(fmt::format("{}:1: error: [body]: {} and {} are to be welded but meet nowhere; move one of them", spec.file_name, first, second));
+      faults.push_back(fmt::format("{}:1: error: [body]: {} and {} are to be welded but meet nowhere; move one of them",
+                                   spec.file_name, first, second));
   for (const auto& part : faults.empty() ? mesh.loose_parts() : std::vector<std::string>{})
     faults.push_back(fmt::format("{}:1: error: [body]: no chain of welds joins {} to the floor; move it", spec.file_name, part));
   if (!faults.empty()) throw InputError(faults);
@@ -43,7 +44,8 @@ void write_hubs(const CarSpec& spec, DeckText& deck) {
   const auto centres = wheel_centres(spec);
   for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
     const auto& hub = wheel < 2 ? spec.chassis.front.hub : spec.chassis.rear.wheel_hub;
-    linkage.rigid({.name = std::string("HUB_") + wheel_names[wheel], .mass = hub.mass, .centre = centres[wheel], .size = hub.size}, {});
+    linkage.rigid({.name = std::string("HUB_") + wheel_names[wheel], .mass = hub.mass, .centre = centres[wheel], .size = hub.size},
+                  {});
   }
 }
 
@@ -59,13 +61,17 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   const auto mesh = make_body(spec, welds);
   const auto tyre_file = beside(file_name, spec.tyre);
   const auto tyre_text = load(tyre_file);
-  if (!tyre_text) throw InputError(fmt::format("{}:1: error: tyre: no file {}; give the path of a tyre's description from this file's folder", file_name, tyre_file));
+  if (!tyre_text)
+    throw InputError(fmt::format("{}:1: error: tyre: no file {}; give the path of a tyre's description from this file's folder",
+                                 file_name, tyre_file));
   const auto tyre = read_tyre_spec(*tyre_text, tyre_file);
 
   CarDeck car;
-  car.tyres.heading = spec.title + ". Units mm, ms, g, N, MPa; x forward, y left, z up; the origin lies on the road below the front axle.";
+  car.tyres.heading =
+      spec.title + ". Units mm, ms, g, N, MPa; x forward, y left, z up; the origin lies on the road below the front axle.";
   constexpr std::int64_t first_tyre_id = 2'000'000;  // behind any body's nodes and elements
-  const auto facts = add_tyres(tyre, spec.chassis.road, {.centre = wheel_centres(spec), .clearance = spec.chassis.road.clearance}, first_tyre_id, car.tyres);
+  const auto facts = add_tyres(tyre, spec.chassis.road, {.centre = wheel_centres(spec), .clearance = spec.chassis.road.clearance},
+                               first_tyre_id, car.tyres);
 
   DeckText deck;
   write_body(spec, mesh, deck);
@@ -83,7 +89,9 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   write_drive(spec, tyre, facts, wheel_loads(spec, weights, facts.mass), drive);
   car.equilibrium = equilibrium.text();
   car.drive = drive.text();
-  car.report = car_report(spec, mesh, welds) + fmt::format("  sprung weight on the springs of a front wheel {:.0f} N, of a rear wheel {:.0f} N\n", weights.front, weights.rear);
+  car.report = car_report(spec, mesh, welds) +
+               fmt::format("  sprung weight on the springs of a front wheel {:.0f} N, of a rear wheel {:.0f} N\n", weights.front,
+                           weights.rear);
   return car;
 }
 

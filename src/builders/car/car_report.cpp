@@ -40,23 +40,29 @@ std::string car_report(const CarSpec& spec, const BodyMesh& mesh, const std::vec
     shells += part.quadrilaterals.size();
   }
   for (const auto& [part, mass] : by_part)
-    text += fmt::format("  mass {:<20} {:8.2f} kg   {:g} mm {}\n", part, mass / 1e3, spec.gauges.at(part).thickness, spec.gauges.at(part).material);
+    text += fmt::format("  mass {:<20} {:8.2f} kg   {:g} mm {}\n", part, mass / 1e3, spec.gauges.at(part).thickness,
+                        spec.gauges.at(part).material);
   text += fmt::format("  mass {:<20} {:8.2f} kg\n", "body in white", body.mass() / 1e3);
   for (const auto& mass : on_both_sides(spec.masses)) {
     car.add_box(mass.mass, mass.place, mass.size);
-    text += fmt::format("  mass {:<20} {:8.2f} kg   hung at {:.0f}, {:.0f}, {:.0f}\n", mass.name, mass.mass / 1e3, mass.place[0], mass.place[1], mass.place[2]);
+    text += fmt::format("  mass {:<20} {:8.2f} kg   hung at {:.0f}, {:.0f}, {:.0f}\n", mass.name, mass.mass / 1e3, mass.place[0],
+                        mass.place[1], mass.place[2]);
   }
   const auto centre = car.centre();
   const auto inertia = car.about_centre();
-  text += fmt::format("  body with its load   {:.1f} kg; centre of gravity {:.0f} mm behind the front axle, {:.0f} mm high; roll, pitch, yaw inertia {:.0f}, {:.0f}, {:.0f} kg m2\n",
-                      car.mass() / 1e3, -centre[0], centre[2], inertia[0] / 1e9, inertia[1] / 1e9, inertia[2] / 1e9);
+  text += fmt::format(
+      "  body with its load   {:.1f} kg; centre of gravity {:.0f} mm behind the front axle, {:.0f} mm high; roll, pitch, yaw "
+      "inertia {:.0f}, {:.0f}, {:.0f} kg m2\n",
+      car.mass() / 1e3, -centre[0], centre[2], inertia[0] / 1e9, inertia[1] / 1e9, inertia[2] / 1e9);
   const auto box = extent(mesh);
-  text += fmt::format("  body                 {:.0f} mm long, {:.0f} mm wide, {:.0f} mm high; wheelbase {:g} mm, tracks {:g} and {:g} mm\n", box[1][0] - box[0][0], box[1][1] - box[0][1],
-                      box[1][2], spec.profile.wheelbase, spec.profile.front_track, spec.profile.rear_track);
+  text += fmt::format(
+      "  body                 {:.0f} mm long, {:.0f} mm wide, {:.0f} mm high; wheelbase {:g} mm, tracks {:g} and {:g} mm\n",
+      box[1][0] - box[0][0], box[1][1] - box[0][1], box[1][2], spec.profile.wheelbase, spec.profile.front_track,
+      spec.profile.rear_track);
   std::size_t places = 0;
   for (const auto& line : welds) places += static_cast<std::size_t>(line.places);
-  text += fmt::format("  mesh                 {} nodes, {} S4R in {} parts, {} welds in {} places of {} seams\n", mesh.nodes().size(), shells, mesh.parts().size(),
-                      mesh.welds().size(), places, welds.size());
+  text += fmt::format("  mesh                 {} nodes, {} S4R in {} parts, {} welds in {} places of {} seams\n",
+                      mesh.nodes().size(), shells, mesh.parts().size(), mesh.welds().size(), places, welds.size());
   // Bodies in white of three-door cars of this size and time, without doors, bonnet and wings' bolts: 180 to 260 kg.
   warn_outside(text, "the body in white's mass", body.mass() / 1e3, 180.0, 260.0, "kg");
   return text;

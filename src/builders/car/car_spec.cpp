@@ -65,31 +65,48 @@ void read_profile(SpecTable& top, ProfileSpec& profile) {
   profile.window_rear = table.number("window_rear", place_row);
   const double wheel_outside = 0.5 * profile.front_track;
   if (profile.plan(0.0) < wheel_outside)
-    table.fault("plan", fmt::format("the skin at the front axle is {:.0f} mm from the middle, inside the wheel's centre at {:.0f} mm; widen the body or narrow the track",
+    table.fault("plan", fmt::format("the skin at the front axle is {:.0f} mm from the middle, inside the wheel's centre at {:.0f} "
+                                    "mm; widen the body or narrow the track",
                                     profile.plan(0.0), wheel_outside));
   table.refuse_unknown();
 }
 
 void read_body(SpecTable& top, BodySpec& body) {
   auto table = top.table("body");
-  const std::pair<const char*, double*> lengths[]{
-      {"floor_height", &body.floor_height}, {"floor_half_width", &body.floor_half_width}, {"tunnel_foot", &body.tunnel_foot},
-      {"tunnel_crown", &body.tunnel_crown}, {"tunnel_height", &body.tunnel_height}, {"rear_floor_height", &body.rear_floor_height},
-      {"rear_floor_half_width", &body.rear_floor_half_width}, {"well_radius", &body.well_radius}, {"well_depth", &body.well_depth},
-      {"sill_height", &body.sill_height}, {"dash_height", &body.dash_height}, {"tower_half_length", &body.tower_half_length}, {"tower_half_width", &body.tower_half_width},
-      {"tower_dome", &body.tower_dome}, {"tower_hole", &body.tower_hole}, {"radiator_top", &body.radiator_top}, {"radiator_bottom", &body.radiator_bottom}};
+  const std::pair<const char*, double*> lengths[]{{"floor_height", &body.floor_height},
+                                                  {"floor_half_width", &body.floor_half_width},
+                                                  {"tunnel_foot", &body.tunnel_foot},
+                                                  {"tunnel_crown", &body.tunnel_crown},
+                                                  {"tunnel_height", &body.tunnel_height},
+                                                  {"rear_floor_height", &body.rear_floor_height},
+                                                  {"rear_floor_half_width", &body.rear_floor_half_width},
+                                                  {"well_radius", &body.well_radius},
+                                                  {"well_depth", &body.well_depth},
+                                                  {"sill_height", &body.sill_height},
+                                                  {"dash_height", &body.dash_height},
+                                                  {"tower_half_length", &body.tower_half_length},
+                                                  {"tower_half_width", &body.tower_half_width},
+                                                  {"tower_dome", &body.tower_dome},
+                                                  {"tower_hole", &body.tower_hole},
+                                                  {"radiator_top", &body.radiator_top},
+                                                  {"radiator_bottom", &body.radiator_bottom}};
   for (const auto& [key, value] : lengths) *value = table.number(key, Bounds::positive("mm"));
-  const std::pair<const char*, double*> places[]{
-      {"kick_front", &body.kick_front}, {"kick_rear", &body.kick_rear}, {"well_centre", &body.well_centre}, {"pillar_front", &body.pillar_front},
-      {"pillar_middle", &body.pillar_middle}, {"seat_front", &body.seat_front}, {"seat_rear", &body.seat_rear}, {"dash_x", &body.dash_x}, {"rail_extension", &body.rail_extension}, {"tower_middle", &body.tower_middle}, {"radiator_x", &body.radiator_x}};
+  const std::pair<const char*, double*> places[]{{"kick_front", &body.kick_front},         {"kick_rear", &body.kick_rear},
+                                                 {"well_centre", &body.well_centre},       {"pillar_front", &body.pillar_front},
+                                                 {"pillar_middle", &body.pillar_middle},   {"seat_front", &body.seat_front},
+                                                 {"seat_rear", &body.seat_rear},           {"dash_x", &body.dash_x},
+                                                 {"rail_extension", &body.rail_extension}, {"tower_middle", &body.tower_middle},
+                                                 {"radiator_x", &body.radiator_x}};
   for (const auto& [key, value] : places) *value = table.number(key, place_row);
   body.firewall = read_line(table, "firewall", 3);
   body.front_rail = read_line(table, "front_rail", 2);
   body.upper_rail = read_line(table, "upper_rail", 2);
   body.rear_rail = read_line(table, "rear_rail", 2);
   body.strut_top = read_place(table, "strut_top");
-  if (body.kick_rear >= body.kick_front) table.fault("kick_rear", "the floor rises backwards; give kick_rear a smaller x than kick_front");
-  if (body.tunnel_crown >= body.tunnel_foot) table.fault("tunnel_crown", "the tunnel is wider above than below; make its crown narrower than its foot");
+  if (body.kick_rear >= body.kick_front)
+    table.fault("kick_rear", "the floor rises backwards; give kick_rear a smaller x than kick_front");
+  if (body.tunnel_crown >= body.tunnel_foot)
+    table.fault("tunnel_crown", "the tunnel is wider above than below; make its crown narrower than its foot");
   if (body.tower_hole >= std::min(body.tower_half_length, body.tower_half_width))
     table.fault("tower_hole", "the hole is larger than the strut house; make it smaller");
   table.refuse_unknown();
@@ -119,7 +136,8 @@ void read_materials(SpecTable& top, CarSpec& spec) {
     material.poisson = table.number("poisson", Bounds::between(0.0, 0.499, ""));
     material.density = table.number("density", Bounds::positive("g/mm3"));
     for (const auto& row : table.rows("plastic", 2, 2)) material.plastic.push_back({row[0], row[1]});
-    if (!material.plastic.empty() && material.plastic[0][1] != 0.0) table.fault("plastic", "the first plastic strain must be 0: the yield stress");
+    if (!material.plastic.empty() && material.plastic[0][1] != 0.0)
+      table.fault("plastic", "the first plastic strain must be 0: the yield stress");
     material.rate_reference = table.number("rate_reference", Bounds::not_negative("1/ms"), 0.0);
     if (material.rate_reference > 0.0) material.rate_exponent = table.number("rate_exponent", Bounds::positive(""));
     table.refuse_unknown();
@@ -137,8 +155,9 @@ void read_gauges(SpecTable& top, CarSpec& spec) {
     for (const auto& material : spec.materials) known.push_back(material.name);
     if (!gauge.material.empty() && std::ranges::find(known, gauge.material) == known.end()) {
       const auto nearest = nearest_word(gauge.material, known);
-      table.fault("material", fmt::format("\"{}\" is not described in this file; {}", gauge.material,
-                                       nearest.empty() ? "describe it under [material]" : fmt::format("did you mean \"{}\"?", nearest)));
+      table.fault("material",
+                  fmt::format("\"{}\" is not described in this file; {}", gauge.material,
+                              nearest.empty() ? "describe it under [material]" : fmt::format("did you mean \"{}\"?", nearest)));
     }
     for (const auto& part : table.texts("parts")) {
       if (spec.gauges.contains(part)) table.fault("parts", fmt::format("{} has a gauge already; name it once", part));
@@ -173,8 +192,9 @@ std::vector<MountSpec> read_mounts(SpecTable& top, const char* kind, bool heavy)
 
 }  // namespace
 
-const std::vector<std::string> member_names{"sill", "hinge_pillar", "b_pillar", "side_frame", "front_rail", "upper_rail", "rail_extension", "rear_rail", "cross_member",
-                                            "cowl", "front_frame", "bumper", "dash_beam", "roof_header", "roof_bow", "waist_rail"};
+const std::vector<std::string> member_names{
+    "sill",         "hinge_pillar", "b_pillar",    "side_frame", "front_rail", "upper_rail",  "rail_extension", "rear_rail",
+    "cross_member", "cowl",         "front_frame", "bumper",     "dash_beam",  "roof_header", "roof_bow",       "waist_rail"};
 
 CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const std::string& obstacle) {
   const auto file = parse_spec(toml_text, file_name);

@@ -31,7 +31,8 @@ void write_history(DeckText& deck) {
 /// Writes the steps of the equilibrium; each says all that acts in it.
 class StepText {
  public:
-  StepText(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck) : spec_(spec), tyre_(tyre), facts_(facts), deck_(deck) {}
+  StepText(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck)
+      : spec_(spec), tyre_(tyre), facts_(facts), deck_(deck) {}
 
   void seat() {
     begin("SEAT", 0.25, 0.5);
@@ -40,7 +41,8 @@ class StepText {
     deck_.line("*BOUNDARY");
     for (const auto* wheel : wheel_names)
       for (const auto& [side, sign] : {std::pair{"LEFT", -1.0}, std::pair{"RIGHT", 1.0}})
-        deck_.line("BEAD_{}_{}, 1, 1\nBEAD_{}_{}, 2, 2, {:g}\nBEAD_{}_{}, 3, 3", side, wheel, side, wheel, sign * facts_.seat_shift, side, wheel);
+        deck_.line("BEAD_{}_{}, 1, 1\nBEAD_{}_{}, 2, 2, {:g}\nBEAD_{}_{}, 3, 3", side, wheel, side, wheel, sign * facts_.seat_shift,
+                   side, wheel);
     hold_hubs(1, 6);
     hold_roads(0.0);
     hold_body();
@@ -51,7 +53,8 @@ class StepText {
   void inflate_tyres() {
     begin("INFLATE", 0.1, 0.25);
     for (const auto* wheel : wheel_names)
-      for (const auto* side : {"LEFT", "RIGHT"}) deck_.line("*RIGID BODY, REF NODE=HUB_{}, TIE NSET=BEAD_{}_{}", wheel, side, wheel);
+      for (const auto* side : {"LEFT", "RIGHT"})
+        deck_.line("*RIGID BODY, REF NODE=HUB_{}, TIE NSET=BEAD_{}_{}", wheel, side, wheel);
     deck_.line("*BOUNDARY, OP=NEW");
     hold_hubs(1, 6);
     hold_roads(0.0);
@@ -103,7 +106,8 @@ class StepText {
   double rise() const { return facts_.outer_radius + spec_.chassis.road.clearance - spec_.profile.wheel_height; }
 
   void begin(const char* name, double first, double largest) {
-    deck_.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}", name, first * period, period, 1e-5 * period, largest * period);
+    deck_.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}", name, first * period, period,
+               1e-5 * period, largest * period);
   }
   void pairs() {
     for (const auto* wheel : wheel_names) deck_.line("TREAD_{}, ROAD_{}_SURFACE", wheel, side_of(wheel));
@@ -112,7 +116,8 @@ class StepText {
     for (const auto* wheel : wheel_names) deck_.line("HUB_{}, {}, {}", wheel, first, last);
   }
   void hold_roads(double up) {
-    for (const auto* side : {"LEFT", "RIGHT"}) deck_.line("ROAD_{}, 1, 2\nROAD_{}, 3, 3, {:g}\nROAD_{}, 4, 6", side, side, up, side);
+    for (const auto* side : {"LEFT", "RIGHT"})
+      deck_.line("ROAD_{}, 1, 2\nROAD_{}, 3, 3, {:g}\nROAD_{}, 4, 6", side, side, up, side);
   }
   void hold_body() {
     if (spec_.fidelity != "complete") return deck_.line("BODY_REFERENCE, 1, 6");
@@ -170,19 +175,23 @@ void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& fac
     const auto& at = centres[wheel];
     deck.line("*NSET, NSET=WHEEL_{}\nTYRE_{}, HUB_{}", wheel_names[wheel], wheel_names[wheel], wheel_names[wheel]);
     const double radius = rolling_radius(tyre, facts.outer_radius, wheel < 2 ? loads.front : loads.rear);
-    deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.", wheel_names[wheel], drive.speed / radius);
+    deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.", wheel_names[wheel],
+              drive.speed / radius);
     deck.line("{:g}, {:g}, {:g}, {:g}, {:g}, {:g}", at[0], at[1], at[2], at[0], at[1] + 1.0, at[2]);  // two points of the axis
   }
   for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -drive.speed);
-  deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}", tyre.rolling.scale_factor, drive.duration,
-            tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
+  deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}",
+            tyre.rolling.scale_factor, drive.duration, tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
   deck.line("*MODEL CHANGE, TYPE=CONTACT PAIR, ADD");
   for (const auto* wheel : wheel_names) deck.line("TREAD_{}, ROAD_{}_SURFACE", wheel, side_of(wheel));
-  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, -drive.speed, side);
+  for (const auto* side : {"LEFT", "RIGHT"})
+    deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, -drive.speed, side);
   deck.line("*DSLOAD");
   for (const auto* wheel : wheel_names) deck.line("LINER_{}, P, {:g}", wheel, tyre.statics.pressure);
   deck.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity);
-  deck.line("*OUTPUT, FIELD, NUMBER INTERVAL={}\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, TIME INTERVAL={:g}", drive.frames, drive.history_interval);
+  deck.line(
+      "*OUTPUT, FIELD, NUMBER INTERVAL={}\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, TIME INTERVAL={:g}",
+      drive.frames, drive.history_interval);
   write_history(deck);
   deck.line("*ENERGY OUTPUT\nALLIE, ALLKE, ALLWK, ETOTAL\n*RESTART, WRITE, NUMBER INTERVAL=4\n*END STEP");
 }

@@ -22,7 +22,8 @@ std::int64_t DeckText::named_node(const std::string& name, const Vector& place) 
 
 const DeckText::Named& DeckText::find(const std::string& name) const {
   const auto found = named_.find(name);
-  if (found == named_.end()) throw InputError(fmt::format("the car's description has no [mount] {}, which its suspension needs; add it", name));
+  if (found == named_.end())
+    throw InputError(fmt::format("the car's description has no [mount] {}, which its suspension needs; add it", name));
   return found->second;
 }
 

@@ -15,7 +15,9 @@ namespace balocco::car {
 class DeckText {
  public:
   /// A chapter: a comment line that is seen from far.
-  void chapter(const std::string& title) { text_ += fmt::format("**\n** ---- {} {}\n", title, std::string(title.size() < 110 ? 110 - title.size() : 0, '-')); }
+  void chapter(const std::string& title) {
+    text_ += fmt::format("**\n** ---- {} {}\n", title, std::string(title.size() < 110 ? 110 - title.size() : 0, '-'));
+  }
   void comment(const std::string& words) { text_ += "** " + words + "\n"; }
   template <class... Arguments>
   void line(fmt::format_string<Arguments...> format, Arguments&&... arguments) {
@@ -25,7 +27,9 @@ class DeckText {
   /// Numbers, 12 a line.
   void numbers(const std::vector<std::int64_t>& all);
   /// A node, with its coordinates to the millionth of a millimetre.
-  void node(std::int64_t id, const Vector& place) { line("{}, {:.6f}, {:.6f}, {:.6f}", id, place[0] + 0.0, place[1] + 0.0, place[2] + 0.0); }
+  void node(std::int64_t id, const Vector& place) {
+    line("{}, {:.6f}, {:.6f}, {:.6f}", id, place[0] + 0.0, place[1] + 0.0, place[2] + 0.0);
+  }
 
   /// A node that is a set of its own, by whose name others find it.
   std::int64_t named_node(const std::string& name, const Vector& place);

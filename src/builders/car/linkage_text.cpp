@@ -11,7 +11,8 @@ void LinkageText::rigid(const RigidPart& part, const std::vector<std::int64_t>& 
   const auto node = deck_.named_node(name, part.centre);
   const auto own = box_inertia(part.mass, part.size);
   deck_.line("*ELEMENT, TYPE=MASS, ELSET=M_{}\n{}, {}\n*MASS, ELSET=M_{}\n{:g}", name, deck_.next_element(), node, name, part.mass);
-  deck_.line("*ELEMENT, TYPE=ROTARYI, ELSET=I_{}\n{}, {}\n*ROTARY INERTIA, ELSET=I_{}\n{:.6g}, {:.6g}, {:.6g}", name, deck_.next_element(), node, name, own[0], own[1], own[2]);
+  deck_.line("*ELEMENT, TYPE=ROTARYI, ELSET=I_{}\n{}, {}\n*ROTARY INERTIA, ELSET=I_{}\n{:.6g}, {:.6g}, {:.6g}", name,
+             deck_.next_element(), node, name, own[0], own[1], own[2]);
   if (points.empty()) return deck_.line("*RIGID BODY, REF NODE={}", node);
   deck_.line("*NSET, NSET=P_{}", name);
   deck_.numbers(points);
@@ -31,8 +32,8 @@ void LinkageText::behaviour(const Behaviour& behaviour) {
   if (behaviour.free_length > 0.0) deck_.line("*CONNECTOR CONSTITUTIVE REFERENCE\n{:.6f}", behaviour.free_length);
 }
 
-void LinkageText::connector(const std::string& name, const std::string& type, std::int64_t first, std::int64_t second, const std::string& orientation,
-                            const std::string& behaviour) {
+void LinkageText::connector(const std::string& name, const std::string& type, std::int64_t first, std::int64_t second,
+                            const std::string& orientation, const std::string& behaviour) {
   deck_.line("*ELEMENT, TYPE=CONN3D2, ELSET={}\n{}, {}, {}", name, deck_.next_element(), first, second);
   deck_.line("*CONNECTOR SECTION, ELSET={}{}\n{}", name, behaviour.empty() ? "" : ", BEHAVIOR=" + behaviour, type);
   if (!orientation.empty()) deck_.line("{}", orientation);
@@ -41,7 +42,8 @@ void LinkageText::connector(const std::string& name, const std::string& type, st
 void LinkageText::orientation(const std::string& name, const Vector& axis) {
   const auto along = unit(axis);
   const auto aside = unit(cross(along, std::abs(along[0]) < 0.9 ? Vector{1.0, 0.0, 0.0} : Vector{0.0, 1.0, 0.0}));
-  deck_.line("*ORIENTATION, NAME={}\n{:.9f}, {:.9f}, {:.9f}, {:.9f}, {:.9f}, {:.9f}", name, along[0], along[1], along[2], aside[0], aside[1], aside[2]);
+  deck_.line("*ORIENTATION, NAME={}\n{:.9f}, {:.9f}, {:.9f}, {:.9f}, {:.9f}, {:.9f}", name, along[0], along[1], along[2], aside[0],
+             aside[1], aside[2]);
 }
 
 }  // namespace balocco::car

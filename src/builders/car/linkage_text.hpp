@@ -39,7 +39,8 @@ class LinkageText {
   void rigid(const RigidPart& part, const std::vector<std::int64_t>& points);
   void behaviour(const Behaviour& behaviour);
   /// `orientation` and `behaviour` may be empty.
-  void connector(const std::string& name, const std::string& type, std::int64_t first, std::int64_t second, const std::string& orientation, const std::string& behaviour);
+  void connector(const std::string& name, const std::string& type, std::int64_t first, std::int64_t second,
+                 const std::string& orientation, const std::string& behaviour);
   /// Local direction 1 along `axis`.
   void orientation(const std::string& name, const Vector& axis);
 

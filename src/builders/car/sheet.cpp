@@ -33,11 +33,13 @@ std::vector<double> stations_of(const Outline& outline, double size) {
   return all;
 }
 
-Sheet sweep(const std::string& part, const std::vector<Frame>& member, const std::function<Outline(double)>& outline_at, double size) {
+Sheet sweep(const std::string& part, const std::vector<Frame>& member, const std::function<Outline(double)>& outline_at,
+            double size) {
   const auto start = outline_at(0.0), end = outline_at(1.0);
   auto across = stations_of(start, size);
   if (const auto of_end = stations_of(end, size); of_end.size() > across.size()) across = of_end;
-  Sheet sheet{.part = part, .rows = static_cast<int>(member.size()), .columns = static_cast<int>(across.size()), .closed = start.closed};
+  Sheet sheet{
+      .part = part, .rows = static_cast<int>(member.size()), .columns = static_cast<int>(across.size()), .closed = start.closed};
   for (std::size_t row = 0; row < member.size(); ++row) {
     const auto outline = outline_at(static_cast<double>(row) / static_cast<double>(member.size() - 1));
     for (const double station : across) {
@@ -59,7 +61,8 @@ Sheet sheet_on(const std::string& part, const std::vector<double>& u, const std:
 
 Sheet between(const std::string& part, const Curve& first, const Curve& second, double size) {
   double widest = 0.0;
-  for (int i = 0; i <= 8; ++i) widest = std::max(widest, length(second.at(second.length() * i / 8) - first.at(first.length() * i / 8)));
+  for (int i = 0; i <= 8; ++i)
+    widest = std::max(widest, length(second.at(second.length() * i / 8) - first.at(first.length() * i / 8)));
   const double longest = std::max(first.length(), second.length());
   return sheet_on(part, stations({0.0, 1.0}, size / longest), stations({0.0, 1.0}, size / widest), [&](double u, double v) {
     return (1.0 - v) * first.at(u * first.length()) + v * second.at(u * second.length());
@@ -91,7 +94,12 @@ Sheet hat_along(const std::string& part, const std::vector<Frame>& member, const
 
 Sheet tube_along(const std::string& part, const std::vector<Frame>& member, double width, double height, double size) {
   const double aside = 0.5 * width, out = 0.5 * height;
-  return sweep(part, member, [&](double) { return Outline{{{-aside, -out}, {-aside, out}, {aside, out}, {aside, -out}}, true}; }, size);
+  return sweep(
+      part, member,
+      [&](double) {
+        return Outline{{{-aside, -out}, {-aside, out}, {aside, out}, {aside, -out}}, true};
+      },
+      size);
 }
 
 Sheet mirrored(const Sheet& sheet, const std::string& part) {

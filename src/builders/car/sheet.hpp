@@ -36,8 +36,8 @@ struct Frame {
 /// Frames of a line at stations `size` apart. `outward` at a place need only be roughly across the line.
 std::vector<Frame> frames(const Curve& line, double size, const std::function<Vector(const Vector&)>& outward);
 
-/// A hat section, mm: a web of `width` at `depth` from the plane of its two flanges. The width at the member's end differs from that
-/// at its start where `end_width` is not 0.
+/// A hat section, mm: a web of `width` at `depth` from the plane of its two flanges. The width at the member's end differs from
+/// that at its start where `end_width` is not 0.
 struct Hat {
   double width = 0.0, depth = 0.0, flange = 0.0, end_width = 0.0;
 };

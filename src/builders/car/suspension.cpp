@@ -31,11 +31,12 @@ std::vector<Characteristic> along_all_axes(const BushingSpec& bushing, double fa
 }
 
 void write_bushing(const std::string& name, const BushingSpec& bushing, LinkageText& linkage) {
-  linkage.behaviour({.name = name, .elasticity = along_all_axes(bushing, 1.0), .damping = along_all_axes(bushing, bushing.damping_time)});
+  linkage.behaviour(
+      {.name = name, .elasticity = along_all_axes(bushing, 1.0), .damping = along_all_axes(bushing, bushing.damping_time)});
 }
 
-/// Spring and stops of a strut over its travel from the length without load: it carries `load` at design height, where the travel is
-/// -load / rate; stops touch when the gaps are used up, counted from there. Rows (force, travel).
+/// Spring and stops of a strut over its travel from the length without load: it carries `load` at design height, where the travel
+/// is -load / rate; stops touch when the gaps are used up, counted from there. Rows (force, travel).
 std::vector<std::array<double, 2>> spring_with_stops(const StrutSpec& strut, double load) {
   const double design = -load / strut.spring_rate;
   std::vector<std::array<double, 2>> rows;
@@ -69,13 +70,16 @@ void write_corner(const CarSpec& spec, const Side& side, DeckText& deck) {
   const auto at = [&](const Vector& point) { return side(hard_point(spec, point)); };
   LinkageText linkage(deck);
   deck.comment("front corner, " + s);
-  const auto arm_front = linkage.point("ARM_BUSH_FRONT_" + s, at(front.arm_front)), arm_rear = linkage.point("ARM_BUSH_REAR_" + s, at(front.arm_rear));
+  const auto arm_front = linkage.point("ARM_BUSH_FRONT_" + s, at(front.arm_front)),
+             arm_rear = linkage.point("ARM_BUSH_REAR_" + s, at(front.arm_rear));
   const auto arm_ball = linkage.point("ARM_BALL_" + s, at(front.ball_joint));
   auto arm = front.arm;
   arm.centre = hard_point(spec, arm.centre);
   linkage.rigid(side(arm, "LOWER_ARM"), {arm_front, arm_rear, arm_ball});
-  const auto ball = linkage.point("KNUCKLE_BALL_" + s, at(front.ball_joint)), tube = linkage.point("STRUT_TUBE_" + s, at(front.strut_lower));
-  const auto steer = linkage.point("KNUCKLE_STEER_" + s, at(front.rod_outer)), axle = linkage.point("AXLE_FRONT_" + s, side(wheel_centres(spec)[0]));
+  const auto ball = linkage.point("KNUCKLE_BALL_" + s, at(front.ball_joint)),
+             tube = linkage.point("STRUT_TUBE_" + s, at(front.strut_lower));
+  const auto steer = linkage.point("KNUCKLE_STEER_" + s, at(front.rod_outer)),
+             axle = linkage.point("AXLE_FRONT_" + s, side(wheel_centres(spec)[0]));
   auto knuckle = front.knuckle;
   knuckle.centre = hard_point(spec, knuckle.centre);
   linkage.rigid(side(knuckle, "KNUCKLE"), {ball, tube, steer, axle});
@@ -105,7 +109,8 @@ Inertia sprung_mass(const CarSpec& spec, const BodyMesh& mesh) {
   Inertia sprung;
   for (const auto& part : mesh.parts()) add_part(spec, mesh, part, sprung);
   for (const auto& mass : on_both_sides(spec.masses)) sprung.add_box(mass.mass, mass.place, mass.size);
-  for (const auto* part : {&spec.chassis.engine.block, &spec.chassis.front.subframe}) sprung.add_box(part->mass, part->centre, part->size);
+  for (const auto* part : {&spec.chassis.engine.block, &spec.chassis.front.subframe})
+    sprung.add_box(part->mass, part->centre, part->size);
   for (const auto& side : sides) sprung.add(spec.chassis.front.rod_mass, side(spec.body.strut_top));
   return sprung;
 }
@@ -130,7 +135,8 @@ void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, D
   write_bushing("ARM_BUSH", front.arm_bush, linkage);
   write_bushing("TOP_MOUNT", front.top_mount, linkage);
   write_bushing("SUBFRAME_MOUNT", front.subframe_mount, linkage);
-  // The wheel moves about the arm's and the strut's instant centre; near design height the strut shortens by the cosine of its lean.
+  // The wheel moves about the arm's and the strut's instant centre; near design height the strut shortens by the cosine of its
+  // lean.
   const double load = weights.front / (unit(top - lower)[2]), length_now = length(top - lower);
   linkage.behaviour({.name = "STRUT_FRONT",
                      .elasticity = {{.component = 1, .table = spring_with_stops(front.strut, load)}},
@@ -139,9 +145,13 @@ void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, D
   std::vector<std::int64_t> points;
   for (const auto& side : sides) {
     const std::string s = side.name;
-    for (const auto& [name, place] : {std::pair{"SUBFRAME_ARM_FRONT_", front.arm_front}, std::pair{"SUBFRAME_ARM_REAR_", front.arm_rear}, std::pair{"SUBFRAME_RACK_", front.rod_inner}})
+    for (const auto& [name, place] :
+         {std::pair{"SUBFRAME_ARM_FRONT_", front.arm_front}, std::pair{"SUBFRAME_ARM_REAR_", front.arm_rear},
+          std::pair{"SUBFRAME_RACK_", front.rod_inner}})
       points.push_back(linkage.point(name + s, side(hard_point(spec, place))));
-    for (const auto* end : {"FRONT_", "REAR_"}) points.push_back(linkage.point(std::string("SUBFRAME_FOOT_") + end + s, deck.place_of(std::string("SUBFRAME_MOUNT_") + end + s)));
+    for (const auto* end : {"FRONT_", "REAR_"})
+      points.push_back(
+          linkage.point(std::string("SUBFRAME_FOOT_") + end + s, deck.place_of(std::string("SUBFRAME_MOUNT_") + end + s)));
   }
   auto subframe = front.subframe;
   subframe.name = "SUBFRAME";
@@ -149,7 +159,8 @@ void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, D
   for (const auto& side : sides)
     for (const auto* end : {"FRONT_", "REAR_"}) {
       const auto name = std::string("SUBFRAME_MOUNT_") + end + side.name;
-      linkage.connector("BUSH_" + name, "BUSHING", deck.node_of(name), deck.node_of(std::string("SUBFRAME_FOOT_") + end + side.name), "", "SUBFRAME_MOUNT");
+      linkage.connector("BUSH_" + name, "BUSHING", deck.node_of(name),
+                        deck.node_of(std::string("SUBFRAME_FOOT_") + end + side.name), "", "SUBFRAME_MOUNT");
     }
   for (const auto& side : sides) write_corner(spec, side, deck);
 }
@@ -162,24 +173,33 @@ void write_rear_suspension(const CarSpec& spec, const CornerWeights& weights, De
   const Vector pivot = deck.place_of("AXLE_PIVOT_LEFT"), seat = deck.place_of("SPRING_SEAT_REAR_LEFT");
   const double lever = (pivot[0] + spec.profile.wheelbase) / (pivot[0] - rear.spring_seat[0]);
   const double load = weights.rear * lever, length_now = length(seat - rear.spring_seat);
-  linkage.behaviour({.name = "SPRING_REAR", .elasticity = {{.component = 1, .slope = rear.strut.spring_rate, .table = {}}}, .damping = {}, .free_length = length_now + load / rear.strut.spring_rate});
+  linkage.behaviour({.name = "SPRING_REAR",
+                     .elasticity = {{.component = 1, .slope = rear.strut.spring_rate, .table = {}}},
+                     .damping = {},
+                     .free_length = length_now + load / rear.strut.spring_rate});
   auto stops = rear.strut;
   stops.spring_rate = 1e-3;  // a damper has no spring: its table needs a slope between the stops that it does not feel
-  linkage.behaviour({.name = "DAMPER_REAR", .elasticity = {{.component = 1, .table = spring_with_stops(stops, 0.0)}}, .damping = {{.component = 1, .table = damper_curve(rear.strut)}}});
+  linkage.behaviour({.name = "DAMPER_REAR",
+                     .elasticity = {{.component = 1, .table = spring_with_stops(stops, 0.0)}},
+                     .damping = {{.component = 1, .table = damper_curve(rear.strut)}}});
   linkage.behaviour({.name = "TORSION_BEAM",
-                     .elasticity = {{.component = 4, .slope = rear.beam_bending, .table = {}}, {.component = 5, .slope = rear.beam_torsion, .table = {}}, {.component = 6, .slope = rear.beam_bending, .table = {}}},
+                     .elasticity = {{.component = 4, .slope = rear.beam_bending, .table = {}},
+                                    {.component = 5, .slope = rear.beam_torsion, .table = {}},
+                                    {.component = 6, .slope = rear.beam_bending, .table = {}}},
                      .damping = {}});
   for (const auto& side : sides) {
     const std::string s = side.name;
     const auto point = [&](const std::string& name, const Vector& place) { return linkage.point(name + s, side(place)); };
-    const std::vector<std::int64_t> points{point("ARM_PIVOT_", pivot), point("ARM_SPRING_", rear.spring_seat), point("ARM_DAMPER_", rear.damper_lower), point("AXLE_REAR_", wheel_centres(spec)[2])};
+    const std::vector<std::int64_t> points{point("ARM_PIVOT_", pivot), point("ARM_SPRING_", rear.spring_seat),
+                                           point("ARM_DAMPER_", rear.damper_lower), point("AXLE_REAR_", wheel_centres(spec)[2])};
     linkage.rigid(side(rear.arm, "TRAILING_ARM"), points);
     linkage.connector("PIVOT_" + s, "BUSHING", deck.node_of("AXLE_PIVOT_" + s), points[0], "ACROSS", "PIVOT_BUSH");
     linkage.connector("SPRING_REAR_" + s, "AXIAL", points[1], deck.node_of("SPRING_SEAT_REAR_" + s), "", "SPRING_REAR");
     linkage.connector("DAMPER_REAR_" + s, "AXIAL", points[2], deck.node_of("DAMPER_MOUNT_REAR_" + s), "", "DAMPER_REAR");
     linkage.connector("BEARING_REAR_" + s, "HINGE", points[3], deck.node_of("HUB_REAR_" + s), "ACROSS", "");
   }
-  linkage.connector("TORSION_BEAM", "CARDAN", deck.node_of("TRAILING_ARM_LEFT"), deck.node_of("TRAILING_ARM_RIGHT"), "", "TORSION_BEAM");
+  linkage.connector("TORSION_BEAM", "CARDAN", deck.node_of("TRAILING_ARM_LEFT"), deck.node_of("TRAILING_ARM_RIGHT"), "",
+                    "TORSION_BEAM");
 }
 
 void write_engine(const CarSpec& spec, DeckText& deck) {
@@ -188,7 +208,8 @@ void write_engine(const CarSpec& spec, DeckText& deck) {
   deck.chapter("ENGINE AND GEARBOX: a rigid body on three mounts");
   constexpr std::array<const char*, 3> names{"LEFT", "RIGHT", "REAR"};
   std::vector<std::int64_t> feet;
-  for (const auto* name : names) feet.push_back(linkage.point(std::string("ENGINE_FOOT_") + name, deck.place_of(std::string("ENGINE_MOUNT_") + name)));
+  for (const auto* name : names)
+    feet.push_back(linkage.point(std::string("ENGINE_FOOT_") + name, deck.place_of(std::string("ENGINE_MOUNT_") + name)));
   auto block = engine.block;
   block.name = "ENGINE";
   linkage.rigid(block, feet);
@@ -196,10 +217,12 @@ void write_engine(const CarSpec& spec, DeckText& deck) {
     Behaviour behaviour{.name = std::string("ENGINE_RUBBER_") + names[i], .elasticity = {}, .damping = {}};
     for (int c = 0; c < 3; ++c) {
       behaviour.elasticity.push_back({.component = c + 1, .slope = engine.rates[i][c], .table = {}});
-      if (engine.damping_time > 0.0) behaviour.damping.push_back({.component = c + 1, .slope = engine.damping_time * engine.rates[i][c], .table = {}});
+      if (engine.damping_time > 0.0)
+        behaviour.damping.push_back({.component = c + 1, .slope = engine.damping_time * engine.rates[i][c], .table = {}});
     }
     linkage.behaviour(behaviour);
-    linkage.connector(std::string("ENGINE_BUSH_") + names[i], "CARTESIAN", deck.node_of(std::string("ENGINE_MOUNT_") + names[i]), feet[i], "", behaviour.name);
+    linkage.connector(std::string("ENGINE_BUSH_") + names[i], "CARTESIAN", deck.node_of(std::string("ENGINE_MOUNT_") + names[i]),
+                      feet[i], "", behaviour.name);
   }
 }
 

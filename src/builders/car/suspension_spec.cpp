@@ -32,10 +32,12 @@ RigidPart read_part(SpecTable& parent, std::string_view key) {
 std::vector<std::array<double, 2>> read_curve(SpecTable& table, std::string_view key) {
   std::vector<std::array<double, 2>> curve;
   for (const auto& row : table.rows(key, 2, 2)) {
-    if (!curve.empty() && row[0] <= curve.back()[0]) table.fault(key, fmt::format("{:g} follows {:g}; list the rows in rising order", row[0], curve.back()[0]));
+    if (!curve.empty() && row[0] <= curve.back()[0])
+      table.fault(key, fmt::format("{:g} follows {:g}; list the rows in rising order", row[0], curve.back()[0]));
     curve.push_back({row[0], row[1]});
   }
-  if (!curve.empty() && (curve[0][0] != 0.0 || curve[0][1] != 0.0)) table.fault(key, "the curve must begin at [0, 0]; add that row");
+  if (!curve.empty() && (curve[0][0] != 0.0 || curve[0][1] != 0.0))
+    table.fault(key, "the curve must begin at [0, 0]; add that row");
   if (table.has(key) && curve.size() < 2) table.fault(key, "a curve needs two rows and more; add them");
   return curve;
 }
@@ -55,16 +57,19 @@ StrutSpec read_strut(SpecTable& parent, std::string_view key) {
 
 BushingSpec read_bushing(SpecTable& parent, std::string_view key) {
   auto table = parent.table(key);
-  const BushingSpec bushing{.radial = table.number("radial", Bounds::positive("N/mm")), .axial = table.number("axial", Bounds::positive("N/mm")),
-                            .angular = table.number("angular", Bounds::positive("N mm/rad")), .damping_time = table.number("damping_time", Bounds::not_negative("ms"))};
+  const BushingSpec bushing{.radial = table.number("radial", Bounds::positive("N/mm")),
+                            .axial = table.number("axial", Bounds::positive("N/mm")),
+                            .angular = table.number("angular", Bounds::positive("N mm/rad")),
+                            .damping_time = table.number("damping_time", Bounds::not_negative("ms"))};
   table.refuse_unknown();
   return bushing;
 }
 
 void read_front(SpecTable& top, FrontSpec& front) {
   auto table = top.table("front");
-  const std::pair<const char*, Vector*> points[]{{"arm_front", &front.arm_front}, {"arm_rear", &front.arm_rear}, {"ball_joint", &front.ball_joint},
-                                                 {"strut_lower", &front.strut_lower}, {"rod_inner", &front.rod_inner}, {"rod_outer", &front.rod_outer}};
+  const std::pair<const char*, Vector*> points[]{{"arm_front", &front.arm_front},   {"arm_rear", &front.arm_rear},
+                                                 {"ball_joint", &front.ball_joint}, {"strut_lower", &front.strut_lower},
+                                                 {"rod_inner", &front.rod_inner},   {"rod_outer", &front.rod_outer}};
   for (const auto& [key, place] : points) *place = read_place(table, key);
   front.subframe = read_part(table, "subframe");
   front.arm = read_part(table, "arm");
@@ -106,7 +111,8 @@ void read_drive(SpecTable& top, const std::string& obstacle, DriveSpec& drive) {
   if (!obstacle.empty()) drive.obstacle = obstacle;
   for (const auto* name : {"comfort", "pothole"}) {
     auto course = table.table(name);
-    const double speed = course.number("speed", Bounds::positive("mm/ms")), duration = course.number("duration", Bounds::positive("ms"));
+    const double speed = course.number("speed", Bounds::positive("mm/ms")),
+                 duration = course.number("duration", Bounds::positive("ms"));
     course.refuse_unknown();
     if (drive.obstacle == name) std::tie(drive.speed, drive.duration) = std::pair(speed, duration);
   }

@@ -22,7 +22,8 @@ struct StrutSpec {
   std::vector<std::array<double, 2>> stop;               // (mm, N) of the stops, from touching on
 };
 
-/// Bushing: radial stiffness (across its axis), axial, N/mm; torsional and cardanic about all axes, N mm/rad; loss: damping in ms times stiffness.
+/// Bushing: radial stiffness (across its axis), axial, N/mm; torsional and cardanic about all axes, N mm/rad; loss: damping in ms
+/// times stiffness.
 struct BushingSpec {
   double radial = 0.0, axial = 0.0, angular = 0.0, damping_time = 0.0;
 };

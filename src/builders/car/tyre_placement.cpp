@@ -19,7 +19,8 @@ void append(const Model& tyre, const Vector& centre, const std::string& suffix, 
     model.nodes.id[node] = first_id + node + 1;
     model.nodes.row_of_id[model.nodes.id[node]] = node;
   }
-  const auto first_section = static_cast<std::int32_t>(model.sections.size()), first_orientation = static_cast<std::int32_t>(model.orientations.size());
+  const auto first_section = static_cast<std::int32_t>(model.sections.size()),
+             first_orientation = static_cast<std::int32_t>(model.orientations.size());
   for (auto orientation : tyre.orientations) {
     orientation.name += suffix;
     orientation.origin = moved(orientation.origin);
@@ -94,13 +95,15 @@ TyreFacts add_tyres(const TyreSpec& spec, const RoadSpec& road, const WheelPlace
   for (const auto& part : tyre_masses(spec, mesh, tyre)) facts.mass += part.mass;
   model.units = {"mm", "g", "ms"};
   model.materials = tyre.materials;
-  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) append(tyre, places.centre[wheel], std::string("_") + wheel_names[wheel], first_id, model);
+  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel)
+    append(tyre, places.centre[wheel], std::string("_") + wheel_names[wheel], first_id, model);
   std::int64_t id = first_id;
   for (auto& table : model.elements)
     for (auto& element : table.id) element = ++id;
   model.interactions.push_back({.name = "GRIP", .friction = road.friction});
   for (const auto* side : {"LEFT", "RIGHT"}) {
-    const Point foot{places.centre[0][0], side[0] == 'L' ? places.centre[0][1] : places.centre[1][1], places.centre[0][2] - facts.outer_radius - places.clearance};
+    const Point foot{places.centre[0][0], side[0] == 'L' ? places.centre[0][1] : places.centre[1][1],
+                     places.centre[0][2] - facts.outer_radius - places.clearance};
     auto below = road;
     if (side[0] == 'R') below.pothole.depth = 0.0;  // only the left wheels go through it
     const auto master = add_road(below, std::string("ROAD_") + side, foot, first_id, model);

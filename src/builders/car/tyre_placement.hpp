@@ -22,8 +22,9 @@ struct TyreFacts {
   double outer_radius = 0.0, seat_shift = 0.0, mass = 0.0;  // mm, mm that each bead moves to the rim, g of one tyre
 };
 
-/// Adds to an empty model: element sets, node sets and surfaces of the tyre builder with _FRONT_LEFT and so on behind their names; roads
-/// ROAD_LEFT and ROAD_RIGHT as rigid bodies, a pothole in the left one alone; contact of the treads with them. Ids begin behind `first_id`.
+/// Adds to an empty model: element sets, node sets and surfaces of the tyre builder with _FRONT_LEFT and so on behind their names;
+/// roads ROAD_LEFT and ROAD_RIGHT as rigid bodies, a pothole in the left one alone; contact of the treads with them. Ids begin
+/// behind `first_id`.
 TyreFacts add_tyres(const TyreSpec& tyre, const RoadSpec& road, const WheelPlaces& places, std::int64_t first_id, Model& model);
 
 }  // namespace balocco::car

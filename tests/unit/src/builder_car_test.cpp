@@ -50,13 +50,16 @@ TEST(CarCurve, StationsKeepTheBreaksAndTheSize) {
 
 /// A flat sheet of a metre square at a height.
 Sheet flat(const std::string& part, double height) {
-  return sheet_on(part, stations({0.0, 1000.0}, 100.0), stations({100.0, 1100.0}, 100.0), [&](double x, double y) { return Vector{x, y, height}; });
+  return sheet_on(part, stations({0.0, 1000.0}, 100.0), stations({100.0, 1100.0}, 100.0), [&](double x, double y) {
+    return Vector{x, y, height};
+  });
 }
 
 TEST(CarWelds, APartIsInAWeldOnceAndNoNodeInTwoWelds) {
   BodyMesh mesh;
   for (const char* part : {"A", "B", "C", "D", "E"}) mesh.add(flat(part, 0.0));
-  for (const auto& [first, second] : {std::pair{"A", "B"}, std::pair{"B", "C"}, std::pair{"C", "D"}, std::pair{"D", "E"}}) mesh.weld(first, second, 1.0, 150.0);
+  for (const auto& [first, second] : {std::pair{"A", "B"}, std::pair{"B", "C"}, std::pair{"C", "D"}, std::pair{"D", "E"}})
+    mesh.weld(first, second, 1.0, 150.0);
   std::set<int> seen;
   for (const auto& weld : mesh.welds()) {
     EXPECT_LE(weld.size(), 4u);
@@ -110,10 +113,12 @@ std::string fault_of(const std::string& from, const std::string& to) {
 
 TEST(CarSpec, FaultsNameLineAndCure) {
   EXPECT_NE(fault_of("thickness = 0.75", "thickness = -0.75").find("[gauge.panel] thickness"), std::string::npos);
-  EXPECT_NE(fault_of("material = \"high_strength\"", "material = \"high_strenght\"").find("did you mean \"high_strength\"?"), std::string::npos);
+  EXPECT_NE(fault_of("material = \"high_strength\"", "material = \"high_strenght\"").find("did you mean \"high_strength\"?"),
+            std::string::npos);
   EXPECT_NE(fault_of("kick_rear = -2020.0", "kick_rear = -1600.0").find("the floor rises backwards"), std::string::npos);
   EXPECT_NE(fault_of("front_track = 1385.0", "front_track = 1685.0").find("inside the wheel's centre"), std::string::npos);
-  EXPECT_NE(fault_of("parts = [\"STRUT_HOUSE_TOP\", \"STRUT_HOUSE_WALL\"]", "parts = [\"STRUT_HOUSE_TOP\"]").find("no gauge"), std::string::npos);
+  EXPECT_NE(fault_of("parts = [\"STRUT_HOUSE_TOP\", \"STRUT_HOUSE_WALL\"]", "parts = [\"STRUT_HOUSE_TOP\"]").find("no gauge"),
+            std::string::npos);
   EXPECT_NE(fault_of("dash_x = -430.0", "dash_x = -930.0").find("meet nowhere"), std::string::npos);
 }
 
@@ -123,7 +128,8 @@ TEST(CarSprings, CarryTheSprungWeightAtDesignHeight) {
   const auto sprung = sprung_mass(spec, mesh);
   const auto weights = corner_weights(spec, sprung);
   EXPECT_NEAR(2.0 * (weights.front + weights.rear), sprung.mass() * 9.81e-3, 1e-6);
-  EXPECT_NEAR(2.0 * weights.rear * spec.profile.wheelbase, -sprung.mass() * 9.81e-3 * sprung.centre()[0], 1e-3);  // moment about the front axle
+  EXPECT_NEAR(2.0 * weights.rear * spec.profile.wheelbase, -sprung.mass() * 9.81e-3 * sprung.centre()[0],
+              1e-3);  // moment about the front axle
 }
 
 TEST(CarTyres, AreFourAlikeAtTheirWheels) {
