@@ -33,11 +33,9 @@ def ride(file):
         size = max(np.abs(wheels).max(), np.abs(body).max())
         kind = None
         if np.abs(body).max() > 0.3 and np.abs(wheels).max() < 0.3 * np.abs(body).max():
-            left, right = body[[0, 2]], body[[1, 3]]
-            if np.abs(left - right).max() < 0.1 * size:
-                kind = "body: front %+.2f, rear %+.2f" % tuple(body[[0, 2]])
-            elif np.abs(left + right).max() < 0.1 * size:
-                kind = "body rolls"
+            heave, roll = 0.5 * (body[[0, 2]] + body[[1, 3]]), 0.5 * (body[[0, 2]] - body[[1, 3]])
+            rolls = np.abs(roll).max() > np.abs(heave).max()
+            kind = "body rolls" if rolls else "body: front %+.2f, rear %+.2f" % tuple(heave)
         elif size > 0.5 and np.abs(body).max() < 0.1 * size:
             kind = "hop: " + ", ".join("%s %+.2f" % (wheel.lower(), value) for wheel, value in zip(WHEELS, wheels) if abs(value) > 0.2)
         if kind:
