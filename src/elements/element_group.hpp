@@ -180,12 +180,19 @@ class ElementGroup {
   /// Merges the increments of the pack that starts at lane `first`.
   template <PackOfLanes T>
   void merge(T increments, std::int32_t first, StableIncrement& smallest) const {
-    if (records_increments_)
-      for (int lane = 0; lane < pack_size; ++lane) recorded_increments_[first + lane] = increments[lane];
-    if (!time_scale_.empty()) increments *= T([&](int lane) { return time_scale_[first + lane]; });
+    if (records_increments_ || !time_scale_.empty()) increments = rescaled(increments, first);
     if (all_of(increments >= T(smallest.increment))) return;
     for (int lane = 0; lane < pack_size; ++lane)
       if (acts(first + lane)) smallest.merge({increments[lane], first + lane});
+  }
+
+  /// With mass scaling, apart from the kernels that most runs go through: records increments, and takes them back to scaled masses.
+  template <PackOfLanes T>
+  [[gnu::noinline]] T rescaled(T increments, std::int32_t first) const {
+    if (records_increments_)
+      for (int lane = 0; lane < pack_size; ++lane) recorded_increments_[first + lane] = increments[lane];
+    if (!time_scale_.empty()) increments *= T([&](int lane) { return time_scale_[first + lane]; });
+    return increments;
   }
 
   virtual int point_components(std::string_view variable) const = 0;
