@@ -17,12 +17,6 @@ namespace balocco {
 
 namespace {
 
-std::vector<std::int32_t> slots_of(const std::vector<PrescribedMotion>& motions) {
-  std::vector<std::int32_t> slots;
-  for (const auto& motion : motions) slots.push_back(motion.slot);
-  return slots;
-}
-
 class BuckleStep {
  public:
   BuckleStep(Analysis& analysis, const Step& step, Observer& observer)

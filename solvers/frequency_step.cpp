@@ -19,12 +19,6 @@ namespace {
 
 constexpr double square(double value) { return value * value; }
 
-std::vector<std::int32_t> slots_of(const std::vector<PrescribedMotion>& motions) {
-  std::vector<std::int32_t> slots;
-  for (const auto& motion : motions) slots.push_back(motion.slot);
-  return slots;
-}
-
 class FrequencyStep {
  public:
   FrequencyStep(Analysis& analysis, const Step& step, Observer& observer)

@@ -97,4 +97,10 @@ std::vector<PrescribedMotion> prescribed_motions(const Analysis& analysis, const
   return motions;
 }
 
+std::vector<std::int32_t> slots_of(const std::vector<PrescribedMotion>& motions) {
+  std::vector<std::int32_t> slots;
+  for (const auto& motion : motions) slots.push_back(motion.slot);
+  return slots;
+}
+
 }  // namespace balocco

@@ -1,4 +1,4 @@
-// Motions that a static step prescribes, as functions of time.
+// Motions that an implicit step prescribes, as functions of time.
 #pragma once
 
 #include <vector>
@@ -18,6 +18,7 @@ struct PrescribedMotion {
 /// which a rigid body carries by now have no effect. @throws InputError if this step's own condition is on a carried
 /// node.
 std::vector<PrescribedMotion> prescribed_motions(const Analysis& analysis, const Step& step);
+std::vector<std::int32_t> slots_of(const std::vector<PrescribedMotion>& motions);
 
 /// u(t) = persistence * u(0) + motion: displacement (rotation) of a condition's dof at `step_time` from that at the
 /// step's start.

@@ -16,12 +16,6 @@ namespace {
 constexpr int easy_iterations = 5;
 constexpr double growth = 1.5, cutback = 0.25;
 
-std::vector<std::int32_t> slots_of(const std::vector<PrescribedMotion>& motions) {
-  std::vector<std::int32_t> slots;
-  for (const auto& motion : motions) slots.push_back(motion.slot);
-  return slots;
-}
-
 }  // namespace
 
 ImplicitStep::ImplicitStep(Analysis& analysis, const Step& step, Observer& observer)
