@@ -6,7 +6,6 @@
 #include <sstream>
 
 #include "constraints/rigid_body.hpp"
-#include "constraints/rigid_clouds.hpp"
 #include "deck/builder.hpp"
 #include "deck/digest.hpp"
 #include "deck/element_spellings.hpp"
@@ -16,7 +15,7 @@
 #include "deck/tokens.hpp"
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
-#include "model/implied_joints.hpp"
+#include "model/rigid_constraints.hpp"
 
 namespace balocco {
 

@@ -1,10 +1,13 @@
-#include "model/implied_joints.hpp"
+#include "model/rigid_constraints.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include "math/tensor.hpp"
 
 namespace balocco {
 
@@ -35,6 +38,21 @@ void renumber(Model& model, const std::vector<std::int32_t>& row) {
   }
 }
 
+/// Whether the nodes are not all on one line, about which their mean would not turn.
+bool spreads(const Model& model, const std::vector<std::int32_t>& nodes) {
+  const auto arm = [&](std::int32_t node) {
+    return Vector3<double>{model.nodes.coordinates[node]} - Vector3<double>{model.nodes.coordinates[nodes.front()]};
+  };
+  Vector3<double> longest{};
+  for (const auto node : nodes)
+    if (dot(arm(node), arm(node)) > dot(longest, longest)) longest = arm(node);
+  constexpr double beside = 1e-6;  // square of the sine
+  return std::ranges::any_of(nodes, [&](std::int32_t node) {
+    const auto across = cross(longest, arm(node));
+    return dot(across, across) > beside * dot(longest, longest) * dot(longest, longest);
+  });
+}
+
 }  // namespace
 
 std::optional<std::string> drop_implied_joints(Model& model) {
@@ -60,6 +78,23 @@ std::optional<std::string> drop_implied_joints(Model& model) {
                      model.where({first.file, first.line}), first.keyword, model.node_name(nodes[0]), model.node_name(nodes[1]),
                      model.node_name(model.rigid_bodies[body_of.at(nodes[0])].reference_node),
                      dropped.size() > 1 ? fmt::format(", and {} others for the same reason", dropped.size() - 1) : "");
+}
+
+void join_rigid_clouds(Model& model) {
+  const auto body_of = lasting_bodies(model);
+  const auto body = [&](std::int32_t node) {
+    const auto found = body_of.find(node);
+    return found == body_of.end() ? -1 : static_cast<std::int64_t>(found->second);
+  };
+  for (auto& definition : model.constraints) {
+    const auto* coupling = std::get_if<DistributingCoupling>(&definition.kind);
+    if (coupling == nullptr || std::ranges::count(coupling->freedoms, false) > 0) continue;
+    const auto carrier = body(coupling->nodes.front());
+    if (carrier < 0 || body(coupling->reference) == carrier) continue;
+    if (std::ranges::any_of(coupling->nodes, [&](std::int32_t node) { return body(node) != carrier; }) || !spreads(model, coupling->nodes)) continue;
+    const auto first = model.rigid_bodies[static_cast<std::size_t>(carrier)].reference_node;
+    definition.kind = Joint{.nodes = {first, coupling->reference}, .pieces = {{Joint::Part::offset}, {Joint::Part::align}}};
+  }
 }
 
 }  // namespace balocco
