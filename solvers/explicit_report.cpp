@@ -45,7 +45,8 @@ Progress ExplicitStep::progress() const {
   progress.step_time = state.step_time;
   progress.total_time = state.total_time;
   progress.time_increment = last_increment_;
-  progress.critical_element = governing.payload;
+  const bool elements_govern = restraint_bound_.element < 0 || governing.value <= restraint_bound_.increment();
+  progress.critical_element = elements_govern ? governing.payload : restraint_bound_.element;
   progress.largest_penetration = contact_.largest_penetration(analysis_);
   progress.deleted_elements = analysis_.communicator.sum(failures_.count(analysis_.current.element_history));
   progress.added_mass = mass_scaling_.added_part();

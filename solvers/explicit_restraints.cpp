@@ -115,6 +115,7 @@ RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& 
     return linkages.mobility(analysis, node, rotates);
   };
   RestraintBound largest;
+  LocalStability governing;
   for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
     RestraintBound bound;
     for (const bool rotates : {false, true}) {
@@ -132,8 +133,11 @@ RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& 
     }
     largest.omega_square = std::max(largest.omega_square, bound.omega_square);
     largest.rate = std::max(largest.rate, bound.rate);
+    if (bound.omega_square > 0.0 || bound.rate > 0.0)
+      governing.merge(bound.increment(), analysis.model.elements[group.table()].id[group.row(element)]);
   });
-  return {analysis.communicator.maximum(largest.omega_square), analysis.communicator.maximum(largest.rate)};
+  return {analysis.communicator.maximum(largest.omega_square), analysis.communicator.maximum(largest.rate),
+          analysis.communicator.minimum(Communicator::Located{governing.increment, governing.element}).payload};
 }
 
 void refuse_massless_restraints(const Analysis& analysis, const Step& step, const ExplicitLinkages& linkages) {

@@ -56,13 +56,12 @@ InverseInertia inverse_inertia(const Analysis& analysis, const GyroscopicNodes& 
 /// scaled last, holds on, also after a restart.
 RestraintBound bound_of_step(Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies, ExplicitLinkages& linkages) {
   auto& state = analysis.current;
-  if (state.increment == 0) {
-    const auto bound = restraint_bound(analysis, restraints, bodies, linkages);
-    state.restraint_omega_square = bound.omega_square;
-    state.restraint_rate = bound.rate;
-    state.restraint_increment = neutral_increment(bound.omega_square, bound.rate);
-  }
-  return {state.restraint_omega_square, state.restraint_rate};
+  if (state.increment > 0) return {state.restraint_omega_square, state.restraint_rate};
+  const auto bound = restraint_bound(analysis, restraints, bodies, linkages);
+  state.restraint_omega_square = bound.omega_square;
+  state.restraint_rate = bound.rate;
+  state.restraint_increment = bound.increment();
+  return bound;
 }
 
 /// Attachments come first of all: what follows depends on who carries which node.

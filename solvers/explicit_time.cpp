@@ -26,6 +26,8 @@ TimeControl::TimeControl(const Step& step)
       scale_factor_(std::get<ExplicitProcedure>(step.procedure).scale_factor),
       fixed_(std::get<ExplicitProcedure>(step.procedure).fixed_increment.value_or(0.0)) {}
 
+double RestraintBound::increment() const { return neutral_increment(omega_square, rate); }
+
 double combined_limit(double stable, double contact_frequency_squared, const RestraintBound& restraints) {
   const double omega_square = 4.0 / (stable * stable) + contact_frequency_squared + restraints.omega_square;
   return neutral_increment(omega_square, restraints.rate);

@@ -17,9 +17,12 @@ struct Instant {
   double average() const { return 0.5 * (previous + next); }
 };
 
-/// Bounds of the eigenvalues of M^-1 K and M^-1 C of springs and dashpots: squared circular frequency and damping rate.
+/// Bounds of the eigenvalues of M^-1 K and M^-1 C of springs, dashpots and connectors: squared circular frequency and damping rate.
 struct RestraintBound {
   double omega_square = 0.0, rate = 0.0;
+  std::int64_t element = -1;  // id of the one that bounds the increment most; -1: there is none, or the step goes on from a checkpoint
+
+  double increment() const;
 };
 
 /// Elements' limit combined with that of contact springs, springs and dashpots: the squares of frequencies and the damping rates

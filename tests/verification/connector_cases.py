@@ -203,5 +203,24 @@ def driven_hinge(run):
     check("it stays", np.ptp(turn[-20:]), 0.0, 1e-12)
 
 
+def damped_strut(run):
+    """A strut whose rod hardly resists turning: its spring and damper act along it and do not turn it, so they do not bound the increment."""
+    mass, stiffness, viscosity, x0 = 2.0, 1e4, 100.0, 0.01
+    behavior = f"*CONNECTOR ELASTICITY, COMPONENT=1\n{stiffness}\n*CONNECTOR DAMPING, COMPONENT=1\n{viscosity}\n"
+    deck = two_nodes("CYLINDRICAL", behavior, at=0.6, inertia="1e-6, 1e-6, 1e-6")
+    deck = deck.replace("*CONNECTOR SECTION", f"*CONNECTOR CONSTITUTIVE REFERENCE\n{0.6 - x0}\n*CONNECTOR SECTION")
+    output = "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=BODY\nU1\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ETOTAL\n"
+    omega, rate = math.sqrt(stiffness / mass), 0.5 * viscosity / mass
+    damped = math.sqrt(omega**2 - rate**2)
+    limit = 2.0 / (rate + math.sqrt(rate**2 + omega**2))
+    for ranks in (1, 2):
+        job = run(deck + f"*STEP\n*DYNAMIC, EXPLICIT, SCALE FACTOR=0.05\n, 0.2\n*BULK VISCOSITY\n0., 0.\n{output}*END STEP\n", ranks)
+        time, u = job.history("node_2", "U1")
+        check("increment", np.diff(time)[1:-100].min(), 0.05 * 0.9 * limit, 1e-3)
+        expected = x0 * np.exp(-rate * time) * (np.cos(damped * time) + rate / damped * np.sin(damped * time)) - x0
+        check("motion", np.abs(u - expected).max(), 0.0, 0.05 * x0)
+        check_energy(job, 1e-2)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (strut, struck_pendulum, braked_rotor, rubbing_slider, slider_crank, on_the_ground, driven_hinge)})
+    run_case({case.__name__: case for case in (strut, damped_strut, struck_pendulum, braked_rotor, rubbing_slider, slider_crank, on_the_ground, driven_hinge)})

@@ -266,15 +266,31 @@ Restraint ConnectorGroup::bound(std::int32_t element, int first) const {
 
 Restraint ConnectorGroup::restraint(std::int32_t element) const { return bound(element, 0); }
 
-/// Forces on the second node turn the first one by the arm between them.
+/// Bound of the arm with which a force along an axis of the first node turns that node: what is held beside the axis stays where it was.
+double ConnectorGroup::arm(std::int32_t element, int component) const {
+  if (connector_.translation != Connector::Translation::cartesian) return 0.0;
+  const auto& relative = references_[element].relative;
+  double square = 0.0;
+  for (int c = 0; c < 3; ++c) {
+    if (c == component) continue;
+    if (connector_.available[c]) return relative.length();
+    square += relative.position_at_start(c) * relative.position_at_start(c);
+  }
+  return std::sqrt(square);
+}
+
+/// Forces on the second node turn the first one by their arms.
 Restraint ConnectorGroup::rotary_restraint(std::int32_t element) const {
   if (!turns()) return {};
   auto result = bound(element, 3);
   const auto pulled = bound(element, 0);
-  const double arm = connector_.translation == Connector::Translation::cartesian ? references_[element].relative.length() : 0.0;
-  result.stiffness += pulled.stiffness * arm * arm;
-  result.viscosity += pulled.viscosity * arm * arm;
-  result.force += pulled.force * arm;
+  const bool is_coupled = !connector_.coupled_elasticity.empty() || !connector_.coupled_damping.empty();
+  double longest = 0.0;
+  for (int c = 0; c < 3; ++c)
+    if (elasticity_[c] || damping_[c] || is_coupled) longest = std::max(longest, arm(element, c));
+  result.stiffness += pulled.stiffness * longest * longest;
+  result.viscosity += pulled.viscosity * longest * longest;
+  result.force += pulled.force * longest;
   return result;
 }
 

@@ -64,6 +64,7 @@ class ConnectorGroup : public ElementGroup {
   Pull pull(std::int32_t element, const Six& motion, const Rate& rate) const;
   void update(const Kinematics& now, const Pull& pulled, std::span<const double> old_history, std::span<double> new_history) const;
   Restraint bound(std::int32_t element, int first) const;
+  double arm(std::int32_t element, int component) const;
   void add_force(std::int32_t element, const ExplicitCycle& cycle, std::span<double> history) const;
   bool turns() const { return freedoms_per_node_ == 6; }
   Six coupled(const std::vector<double>& matrix, const Six& motion) const;
