@@ -115,6 +115,7 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
     throw InputError(std::move(found.errors));
   }
   place_reference_nodes(builder.model);
+  carry_joined_nodes(builder.model);
   finish_shells(builder);
   check_hybrids(builder);
   throw_if_wrong(diagnostics, tokens.files);

@@ -67,14 +67,20 @@ void RigidDynamics::sum_inertia(const Analysis& analysis) {
   }
 }
 
+/// Of *ROTARY INERTIA on the reference node, or on nodes that turn with the body.
 void RigidDynamics::add_rotary_inertia(const Analysis& analysis) {
   const Model& model = analysis.model;
+  const auto turns_with = [&](std::int32_t node, std::size_t body) {
+    const auto& nodes = analysis.current.rigid_bodies[body].nodes;
+    const auto found = std::ranges::lower_bound(nodes, node, {}, &RigidNode::node);
+    return model.rigid_bodies[body].reference_node == node || (found != nodes.end() && found->node == node && found->tie);
+  };
   for (const auto& table : model.elements) {
     if (table.type->section != Section::Kind::rotary_inertia) continue;
     for (std::int32_t row = 0; row < table.size(); ++row) {
       const auto& given = model.sections[table.section[row]].inertia;
       for (std::size_t i = 0; i < bodies_.size(); ++i)
-        if (model.rigid_bodies[i].reference_node == table.connectivity[row])
+        if (turns_with(table.connectivity[row], i))
           bodies_[i].inertia = bodies_[i].inertia + Matrix3<double>{{given[0], given[3], given[4], given[3], given[1],
                                                                      given[5], given[4], given[5], given[2]}};
     }

@@ -16,6 +16,14 @@ Vector3<double> vector(const double* p) {
   return {{p[0], p[1], p[2]}};
 }
 
+/// What turned before its body took it has another inertia in the body's frame than at the start.
+bool turns_as_its_body(const Analysis& analysis, std::int32_t node) {
+  constexpr double alike = 1e-12;
+  const auto& body = analysis.current.rigid_bodies[static_cast<std::size_t>(analysis.turning_body(node))].orientation;
+  const double* const own = &analysis.current.orientation[4 * static_cast<std::size_t>(node)];
+  return std::equal(body.begin(), body.end(), own, [](double a, double b) { return std::abs(a - b) < alike; });
+}
+
 }  // namespace
 
 GyroscopicNodes::GyroscopicNodes(const Analysis& analysis, const Step& step)
@@ -23,10 +31,12 @@ GyroscopicNodes::GyroscopicNodes(const Analysis& analysis, const Step& step)
   for (const auto& given : analysis.rotary_tensors) {
     if (analysis.reference_of(given.node) >= 0) continue;
     const auto row = analysis.domain.node_row[given.node];
-    if (analysis.turning_body(given.node) >= 0)
+    if (analysis.turning_body(given.node) >= 0) {
+      if (turns_as_its_body(analysis, given.node)) continue;  // its inertia is the body's
       throw InputError(fmt::format(
-          "{}: error: *ROTARY INERTIA: node {} turns with a rigid body; give the inertia to the body's reference node",
+          "{}: error: *ROTARY INERTIA: node {} had turned otherwise when a rigid body took it; give the inertia to the body's reference node",
           analysis.model.where(analysis.model.sections[given.section].location), analysis.model.nodes.id[row]));
+    }
     if (!contains(given.node)) {
       index_[given.node] = static_cast<std::int32_t>(nodes_.size());
       nodes_.push_back({.node = given.node,

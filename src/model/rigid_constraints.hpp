@@ -1,12 +1,16 @@
-// What rigid bodies make of constraints between nodes that they carry for good.
+// Nodes that rigid bodies carry for good, and what that makes of constraints between them.
 #pragma once
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "model/model.hpp"
 
 namespace balocco {
+
+/// Body of each node of the model that is its reference node or tied to it from the start to the end; -1: none.
+std::vector<std::int32_t> lasting_bodies(const Model& model);
 
 /// Leaves out joints (*MPC of type BEAM, kinematic couplings) between nodes that one rigid body carries for good and turns: so a
 /// part of a welded structure becomes rigid by one line. Joints of connectors stay: they have forces to tell. @return a note
@@ -16,5 +20,9 @@ std::optional<std::string> drop_implied_joints(Model& model);
 /// A distributing coupling of all freedoms, whose cloud one body carries likewise, holds its reference node as a rigid arm does: it becomes
 /// a joint to the reference node of the body, which costs as little as its cloud was large.
 void join_rigid_clouds(Model& model);
+
+/// A node that a rigid arm (*MPC of type BEAM, a coupling) joins to what a body carries for good moves as one with it: the body carries it
+/// too, and the joint goes. Nodes with boundary conditions, of other bodies, or with a connector to the same body keep their joints.
+void carry_joined_nodes(Model& model);
 
 }  // namespace balocco

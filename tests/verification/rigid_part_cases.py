@@ -80,6 +80,53 @@ def thrown_plate(run):
     check("fall by half a weight", job.history("node_900", "U")[1][-1][2], -0.25 * G * time[-1] ** 2, 1e-2)
 
 
+def carried_inertia(run):
+    """A tumbling body with a mass and a rotary inertia at the end of a rigid arm, which it carries: as if they were its own, and as a
+    weld with its multipliers has it."""
+    own, far = (0.02, 0.03, 0.04, 0.0, 0.0, 0.0), (0.005, 0.003, 0.006, 0.001, 0.0, -0.0005)
+    tensor = lambda components: ", ".join(f"{value!r}" for value in components)
+
+    def deck(joint, reference, end):
+        head = f"""*NODE
+1, 0., 0., 0.
+2, 0.5, 0.2, 0.
+3, 0.1, 0., 0.
+*NSET, NSET=ARM
+3
+*NSET, NSET=SEEN
+1, 2
+*ELEMENT, TYPE=MASS, ELSET=M1
+1, 1
+*MASS, ELSET=M1
+2.
+*ELEMENT, TYPE=MASS, ELSET=M2
+2, 2
+*MASS, ELSET=M2
+1.
+*ELEMENT, TYPE=ROTARYI, ELSET=I1
+3, 1
+*ROTARY INERTIA, ELSET=I1
+{tensor(reference)}
+"""
+        if end:
+            head += f"*ELEMENT, TYPE=ROTARYI, ELSET=I2\n4, 2\n*ROTARY INERTIA, ELSET=I2\n{tensor(end)}\n"
+        spin = "*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nSEEN, 6.\n0., 0., 0., 1., 2., 3.\n"
+        return head + joint + spin + explicit_step(1e-4, 1.0, "", history("SEEN", "U, UR", 0.02))
+
+    body = "*RIGID BODY, REF NODE=1, TIE NSET=ARM\n"
+    arm = deck(body + "*MPC\nBEAM, 2, 3\n", own, far)
+    whole = deck(body.replace("ARM", "ARM2"), [a + b for a, b in zip(own, far)], None).replace("*NSET, NSET=SEEN", "*NSET, NSET=ARM2\n2, 3\n*NSET, NSET=SEEN")
+    welded = deck(body + "*ELEMENT, TYPE=CONN3D2, ELSET=WELD\n9, 3, 2\n*CONNECTOR SECTION, ELSET=WELD\nBEAM\n", own, far)
+    reference = run(whole, 1)
+    check_energy(reference, 1e-6)
+    for text, ranks, tolerance in ((arm, 1, 1e-12), (arm, 2, 1e-12), (welded, 1, 1e-6)):
+        job = run(text, ranks)
+        for node, variable in ((1, "U"), (1, "UR"), (2, "U")):
+            difference = np.abs(job.history(f"node_{node}", variable)[1] - reference.history(f"node_{node}", variable)[1]).max()
+            check(f"{variable} of node {node} in {job.name}", difference, 0.0, tolerance)
+        check("kinetic energy", job.history("energy", "ALLKE")[1][-1], reference.history("energy", "ALLKE")[1][-1], max(tolerance, 1e-9))
+
+
 PLATES = """*NODE
 1, 0., 0., 0.
 2, 1., 0., 0.
@@ -137,4 +184,4 @@ def plates_made_rigid(run):
 
 
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (carousel, thrown_plate, plates_made_rigid)})
+    run_case({case.__name__: case for case in (carousel, thrown_plate, carried_inertia, plates_made_rigid)})

@@ -35,16 +35,19 @@ TEST(DeckReader, RigidBodyInAStepAttachesNodesToTheBodyOfTheModel) {
   EXPECT_EQ(model.steps[0].attachments[0].nodes, (std::vector<std::int32_t>{4, 5, 6, 7}));
 }
 
-TEST(DeckReader, CouplingsToWhatOneBodyCarriesBecomeRigidArms) {
+TEST(DeckReader, CouplingsToWhatOneBodyCarriesAreCarriedToo) {
   const std::string heavy = "*NODE\n9, 0.5, 0.5, 3.\n10, 0.5, 0.5, 0.5\n*ELEMENT, TYPE=MASS, ELSET=M\n2, 9\n*MASS, ELSET=M\n1.\n";
   const auto kind_of = [&](const std::string& body, const std::string& cloud) {
     const auto [model, warnings] = read(brick + heavy + body + "*SURFACE, TYPE=NODE, NAME=CLOUD\n" + cloud +
                                         "*COUPLING, CONSTRAINT NAME=HANG, REF NODE=9, SURFACE=CLOUD\n*DISTRIBUTING\n"
                                         "*STEP, NLGEOM\n*STATIC\n*BOUNDARY\n10, 1, 6\n*END STEP\n");
-    return std::holds_alternative<Joint>(model.constraints.front().kind) ? "arm" : "cloud";
+    const auto& carried = model.rigid_bodies.empty() ? std::vector<std::int32_t>{} : model.rigid_bodies.front().tie_nodes;
+    const bool rides = std::ranges::count_if(carried, [&](auto row) { return model.nodes.id[row] == 9; }) > 0;
+    EXPECT_EQ(model.constraints.empty(), rides);
+    return rides ? "carried" : "cloud";
   };
   const std::string whole = "*RIGID BODY, REF NODE=10, ELSET=ALL\n";
-  EXPECT_EQ(kind_of(whole, "5,\n6,\n7,\n8,\n"), "arm"s);
+  EXPECT_EQ(kind_of(whole, "5,\n6,\n7,\n8,\n"), "carried"s);
   EXPECT_EQ(kind_of("", "5,\n6,\n7,\n8,\n"), "cloud"s);
   EXPECT_EQ(kind_of(whole, "5,\n6,\n"), "cloud"s) << "nodes on one line leave a rotation free";
   EXPECT_EQ(kind_of("*NSET, NSET=SOME\n5, 6, 7\n*RIGID BODY, REF NODE=10, TIE NSET=SOME\n", "5,\n6,\n7,\n8,\n"), "cloud"s);

@@ -21,14 +21,23 @@ TEST(DeckRigidBody, TheReferenceNodeMovesToTheCentreOfMass) {
 }
 
 TEST(DeckRigidBody, JointsWithinABodyAreLeftOutWithANote) {
-  const auto [model, warnings] = read(welded + tied + "*MPC\nBEAM, 22, 21\nBEAM, 21, 20\nBEAM, 24, 23\nBEAM, 1, 2\n" + step);
-  ASSERT_EQ(model.constraints.size(), 1u);
-  EXPECT_EQ(model.node_name(std::get<Joint>(model.constraints[0].kind).nodes[1]), "24");
+  const auto [model, warnings] = read(welded + tied + "*MPC\nBEAM, 22, 21\nBEAM, 21, 20\nBEAM, 1, 2\n" + step);
+  EXPECT_TRUE(model.constraints.empty());
   ASSERT_FALSE(warnings.empty());
   EXPECT_NE(warnings.back().find("note: *MPC: nodes 21 and 22 move as one with the rigid body of reference node 20; this joint "
                                  "is left out, and 2 others for the same reason"),
             std::string::npos)
       << warnings.back();
+}
+
+TEST(DeckRigidBody, CarriesWhatRigidArmsJoinToIt) {
+  const auto arms = welded + "*RIGID BODY, REF NODE=20, ELSET=ALL\n*MPC\nBEAM, 22, 21\nBEAM, 21, 1\nBEAM, 22, 1\nPIN, 23, 1\n";
+  const auto nodes_and_joints = [](const Model& model) { return std::pair(model.rigid_bodies[0].tie_nodes.size(), model.constraints.size()); };
+  EXPECT_EQ(nodes_and_joints(read(arms + step).model), std::pair(std::size_t{10}, std::size_t{3}));
+  const auto held = read(arms + "*STEP\n*STATIC\n*BOUNDARY\n20, 1, 6\n21, 1, 1\n*END STEP\n").model;
+  EXPECT_EQ(nodes_and_joints(held), std::pair(std::size_t{9}, std::size_t{5})) << "22 alone, by its arm to 1";
+  const auto connected = "*ELEMENT, TYPE=CONN3D2, ELSET=LEG\n2, 21, 1\n*CONNECTOR SECTION, ELSET=LEG\nBEAM\n" + step;
+  EXPECT_EQ(nodes_and_joints(read(arms + connected).model), std::pair(std::size_t{9}, std::size_t{6})) << "the connector has forces to tell";
 }
 
 TEST(DeckRigidBody, JointsOfNodesThatAreOnlyPinnedOrLetGoStay) {

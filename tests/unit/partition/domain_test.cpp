@@ -224,6 +224,20 @@ TEST(MetisPartition, IsBalancedDeterministicAndConnectsFaces) {
   }
 }
 
+TEST(ElementGraph, WhatARigidBodyCarriesForGoodHardlyWeighs) {
+  Model model = block(4);
+  auto& body = model.rigid_bodies.front();
+  for (std::int32_t node = 0; node < 3 * 25; ++node) body.tie_nodes.push_back(node);  // the floor, two layers of bricks
+  const auto weights = [&] { return element_graph(model, graph_elements(model)).weight; };
+  const auto carried = weights();
+  for (std::size_t brick = 0; brick < 64; ++brick) EXPECT_EQ(carried[brick] > 1, brick >= 32) << brick;
+  EXPECT_EQ(carried.back(), 1);  // the skin
+  model.steps.resize(1);
+  model.steps.front().attachments.push_back({.rigid_body = 0, .nodes = {0}, .release = true});
+  const auto released = weights();
+  for (std::size_t brick = 0; brick < 64; ++brick) EXPECT_EQ(released[brick] > 1, brick >= 32 || brick == 0) << brick;
+}
+
 TEST(MetisPartition, FewerElementsThanParts) {
   const Model model = block(1);
   const Graph graph = element_graph(model, graph_elements(model));
