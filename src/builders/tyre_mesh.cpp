@@ -7,6 +7,7 @@
 #include <map>
 #include <numbers>
 
+#include "builders/rim_profile.hpp"
 #include "builders/tyre_lamina.hpp"
 #include "elements/element_type.hpp"
 #include "model/diagnostics.hpp"
@@ -137,7 +138,8 @@ void add_membranes(const TyreSpec& spec, const TyreSection& section, Model& mode
   mesh.membranes = add_element_table(model, spec.membrane_type);
   std::array<std::vector<ElementRef>, region_count> sets;
   std::vector<ElementRef> all;
-  Surface liner{.kind = Surface::Kind::element_faces, .name = "LINER"};
+  Surface liner{.kind = Surface::Kind::element_faces, .name = "LINER"}, strike{.kind = Surface::Kind::element_faces, .name = "STRIKE"};
+  const auto may_strike = [&](int node) { return strikes_rim(spec) && section.nodes[node][0] > strike_radius(spec); };
   const auto& line = section.layers[0];
   for (int sector = 0; sector < mesh.sectors(); ++sector) {
     for (std::size_t j = 0; j < section.line_regions.size(); ++j) {
@@ -147,6 +149,7 @@ void add_membranes(const TyreSpec& spec, const TyreSection& section, Model& mode
       sets[region].push_back(element);
       all.push_back(element);
       liner.faces.push_back({element, inward_side});
+      if (may_strike(line[j]) && may_strike(line[j + 1])) strike.faces.push_back({element, inward_side});
     }
   }
   add_element_set(model, "BELT", sets[static_cast<int>(Region::belt)]);
@@ -156,6 +159,9 @@ void add_membranes(const TyreSpec& spec, const TyreSection& section, Model& mode
   add_element_set(model, "CARCASS", std::move(all));
   mesh.liner_surface = static_cast<std::int32_t>(model.surfaces.size());
   model.surfaces.push_back(std::move(liner));
+  if (strike.faces.empty()) return;
+  mesh.strike_surface = static_cast<std::int32_t>(model.surfaces.size());
+  model.surfaces.push_back(std::move(strike));
 }
 
 void add_solids(const TyreSpec& spec, const TyreSection& section, Model& model, TyreMesh& mesh) {

@@ -16,6 +16,7 @@ struct TyreMesh {
       angles;  // of the sectors' first meridians, from the foot of the wheel forwards (towards +x), ascending
   std::int32_t nodes_per_meridian = 0;
   std::int32_t tread_surface = -1, liner_surface = -1;   // rows of Model::surfaces
+  std::int32_t strike_surface = -1;                      // likewise; -1: the tyre cannot strike its rim
   std::int32_t membranes = -1, solids = -1, wires = -1;  // rows of Model::elements
 
   int sectors() const { return static_cast<int>(angles.size()); }
@@ -30,7 +31,7 @@ std::vector<double> sector_angles(const TyreSpec& spec);
 
 /// Adds the tyre to an empty model. Element sets CARCASS_*, CARCASS, BELT, TREAD_BASE, TREAD_CAP, TREAD_SOLID,
 /// SIDEWALL_SOLID, APEX, RIM_STRIP, BEAD_SOLID, TURN_UP, BEAD_WIRE; node sets TYRE, BEAD_LEFT (y > 0), BEAD_RIGHT,
-/// CROWN_TOP, SIDE_LEFT, SIDE_RIGHT; surfaces TREAD and LINER.
+/// CROWN_TOP, SIDE_LEFT, SIDE_RIGHT; surfaces TREAD and LINER, and STRIKE where the inside may strike the rim.
 TyreMesh add_tyre(const TyreSpec& spec, const TyreSection& section, Model& model);
 
 /// Table of an element type that the model does not have yet. @return its row.

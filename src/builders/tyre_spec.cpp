@@ -176,6 +176,7 @@ void read_bead_and_rim(SpecTable& top, TyreSpec& spec) {
   spec.rim.diameter = rim.number("diameter", Bounds::positive("mm"));
   spec.rim.width = rim.number("width", Bounds::positive("mm"));
   spec.rim.flange_height = rim.number("flange_height", Bounds::positive("mm"));
+  spec.rim.pad = rim.number("pad", Bounds::not_negative("mm"), 0.0);
   spec.rim.mass = rim.number("mass", Bounds::positive("g"));
   spec.rim.spin_inertia = rim.number("spin_inertia", Bounds::positive("g mm2"));
   spec.rim.transverse_inertia = rim.number("transverse_inertia", Bounds::positive("g mm2"));
@@ -186,9 +187,11 @@ void read_mesh(SpecTable& top, TyreSpec& spec) {
   auto mesh = top.table("mesh");
   spec.mesh.sectors = mesh.integer("sectors", 8, 2000);
   const auto angle = Bounds::between(1.0, 350.0, "degrees");
-  spec.mesh.arc_angle = mesh.number("arc_angle", angle) * degree;
-  spec.mesh.arc_center = mesh.number("arc_center_angle", Bounds::between(-180.0, 180.0, "degrees")) * degree;
-  spec.mesh.arc_sectors = mesh.integer("arc_sectors", 1, 2000);
+  if (spec.model == 3 || mesh.has("arc_angle") || mesh.has("arc_center_angle") || mesh.has("arc_sectors")) {
+    spec.mesh.arc_angle = mesh.number("arc_angle", angle) * degree;
+    spec.mesh.arc_center = mesh.number("arc_center_angle", Bounds::between(-180.0, 180.0, "degrees")) * degree;
+    spec.mesh.arc_sectors = mesh.integer("arc_sectors", 1, 2000);
+  }
   mesh.refuse_unknown();
 }
 

@@ -75,6 +75,7 @@ struct BeadSpec {
 struct RimSpec {
   double diameter = 0.0, width = 0.0;                   // mm
   double flange_height = 0.0;                           // mm above the seat over which bead and rim touch
+  double pad = 0.0;                                     // mm of rubber between rim and carcass that strikes it; 0: it cannot
   double mass = 0.0;                                    // g
   double spin_inertia = 0.0, transverse_inertia = 0.0;  // g mm2
 };

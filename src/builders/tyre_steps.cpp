@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "builders/rim_profile.hpp"
 #include "builders/road_profile.hpp"
 
 namespace balocco {
@@ -191,6 +192,7 @@ class StepAuthor {
     }
     press(step, spec_.statics.pressure, spec_.statics.pressure);
     step.active_contact_pairs = {0};
+    if (mesh_.strike_surface >= 0) step.active_contact_pairs.push_back(1);
     step.field_outputs.push_back(field_output());
     step.field_outputs.back().number_interval = frames;
     step.history_outputs.push_back(history_output());
@@ -260,13 +262,12 @@ WheelAndRoad add_rim_and_road(const TyreSpec& spec, const TyreSection& section, 
   add_node_set(model, "WHEEL", wheel);
   add_hub_inertia(spec.rim, rig.hub, model);
 
-  Surface road;
-  road.kind = Surface::Kind::analytical;
-  road.name = "ROAD_SURFACE";
-  road.analytical = road_surface(spec.road, foot);
-  const auto road_row = static_cast<std::int32_t>(model.surfaces.size());
-  model.surfaces.push_back(road);
-
+  const auto add_surface = [&](const char* name, AnalyticalSurface analytical) {
+    model.surfaces.push_back({.kind = Surface::Kind::analytical, .name = name, .analytical = std::move(analytical)});
+    return static_cast<std::int32_t>(model.surfaces.size()) - 1;
+  };
+  const auto road_row = add_surface("ROAD_SURFACE", road_surface(spec.road, foot));
+  const auto rim_row = mesh.strike_surface >= 0 ? add_surface("RIM_SURFACE", rim_surface(spec, {0.0, 0.0, 0.0})) : -1;
   const auto add_body = [&](std::int32_t reference, std::int32_t surface) {
     RigidBody body;
     body.name = fmt::format("RIGID-{}", model.nodes.id[reference]);
@@ -275,19 +276,23 @@ WheelAndRoad add_rim_and_road(const TyreSpec& spec, const TyreSection& section, 
     model.rigid_bodies.push_back(body);
     return static_cast<std::int32_t>(model.rigid_bodies.size()) - 1;
   };
-  rig.rim_body = add_body(rig.hub, -1);
+  rig.rim_body = add_body(rig.hub, rim_row);
   rig.road_body = add_body(rig.road, road_row);
 
   Interaction grip;
   grip.name = "GRIP";
   grip.friction = spec.road.friction;
   model.interactions.push_back(grip);
-  ContactPair pair;
-  pair.slave = mesh.tread_surface;
-  pair.master = road_row;
-  pair.interaction = 0;
-  pair.first_step = 0;  // known from the start so that every step may ask for its history; active from CONTACT on
-  model.contact_pairs.push_back(pair);
+  const auto add_pair = [&](std::int32_t slave, std::int32_t master) {  // known from the start so that every step may ask for its history
+    ContactPair pair;
+    pair.slave = slave;
+    pair.master = master;
+    pair.interaction = 0;
+    pair.first_step = 0;
+    model.contact_pairs.push_back(pair);
+  };
+  add_pair(mesh.tread_surface, road_row);  // active from CONTACT on
+  if (rim_row >= 0) add_pair(mesh.strike_surface, rim_row);  // active as it rolls
   return rig;
 }
 

@@ -9,6 +9,7 @@
 #include "builders/car/car_report.hpp"
 #include "builders/car/car_steps.hpp"
 #include "builders/car/suspension.hpp"
+#include "builders/rim_profile.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -38,13 +39,15 @@ BodyMesh make_body(const CarSpec& spec, std::vector<WeldLine>& welds) {
 }
 
 /// The wheels' hubs with their rims; the tyres' beads join them when they are inflated.
-void write_hubs(const CarSpec& spec, DeckText& deck) {
+void write_hubs(const CarSpec& spec, const TyreSpec& tyre, DeckText& deck) {
   deck.chapter("WHEELS: rim, hub and brake turn as one");
   LinkageText linkage(deck);
   const auto centres = wheel_centres(spec);
   for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
     const auto& hub = wheel < 2 ? spec.chassis.front.hub : spec.chassis.rear.wheel_hub;
-    linkage.rigid({.name = std::string("HUB_") + wheel_names[wheel], .mass = hub.mass, .centre = centres[wheel], .size = hub.size},
+    const std::string name = wheel_names[wheel];
+    linkage.rigid({.name = "HUB_" + name, .mass = hub.mass, .centre = centres[wheel], .size = hub.size,
+                   .surface = strikes_rim(tyre) ? "RIM_" + name : ""},
                   {});
   }
 }
@@ -79,7 +82,7 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   write_materials(spec, deck);
   write_fidelity(spec, mesh, deck);
   const auto weights = corner_weights(spec, sprung_mass(spec, mesh));
-  write_hubs(spec, deck);
+  write_hubs(spec, tyre, deck);
   write_front_suspension(spec, weights, deck);
   write_rear_suspension(spec, weights, deck);
   write_engine(spec, deck);

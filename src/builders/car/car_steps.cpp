@@ -1,5 +1,6 @@
 #include "builders/car/car_steps.hpp"
 
+#include "builders/rim_profile.hpp"
 #include "builders/tyre_steps.hpp"
 
 namespace balocco::car {
@@ -11,6 +12,15 @@ constexpr double period = 1e6;
 
 const char* side_of(const std::string& wheel) {
   return wheel.ends_with("LEFT") ? "LEFT" : "RIGHT";
+}
+
+void write_road_pairs(DeckText& deck) {
+  for (const auto* wheel : wheel_names) deck.line("TREAD_{}, ROAD_{}_SURFACE", wheel, side_of(wheel));
+}
+
+void write_rim_pairs(const TyreSpec& tyre, DeckText& deck) {
+  for (const auto* wheel : wheel_names)
+    if (strikes_rim(tyre)) deck.line("STRIKE_{}, RIM_{}", wheel, wheel);
 }
 
 /// What every step tells over its time: hubs and roads, tyres, and the connectors by which they load the car.
@@ -37,7 +47,8 @@ class StepText {
   void seat() {
     begin("SEAT", 0.25, 0.5);
     deck_.line("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE");
-    pairs();
+    write_road_pairs(deck_);
+    write_rim_pairs(tyre_, deck_);
     deck_.line("*BOUNDARY");
     for (const auto* wheel : wheel_names)
       for (const auto& [side, sign] : {std::pair{"LEFT", -1.0}, std::pair{"RIGHT", 1.0}})
@@ -78,7 +89,7 @@ class StepText {
   void touch() {
     begin("CONTACT", 0.1, 0.2);
     deck_.line("*MODEL CHANGE, TYPE=CONTACT PAIR, ADD");
-    pairs();
+    write_road_pairs(deck_);
     deck_.line("*BOUNDARY, OP=NEW");
     hold_hubs(1, 3);
     hold_hubs(5, 5);
@@ -108,9 +119,6 @@ class StepText {
   void begin(const char* name, double first, double largest) {
     deck_.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}", name, first * period, period,
                1e-5 * period, largest * period);
-  }
-  void pairs() {
-    for (const auto* wheel : wheel_names) deck_.line("TREAD_{}, ROAD_{}_SURFACE", wheel, side_of(wheel));
   }
   void hold_hubs(int first, int last) {
     for (const auto* wheel : wheel_names) deck_.line("HUB_{}, {}, {}", wheel, first, last);
@@ -183,7 +191,8 @@ void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& fac
   deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}",
             tyre.rolling.scale_factor, drive.duration, tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
   deck.line("*MODEL CHANGE, TYPE=CONTACT PAIR, ADD");
-  for (const auto* wheel : wheel_names) deck.line("TREAD_{}, ROAD_{}_SURFACE", wheel, side_of(wheel));
+  write_road_pairs(deck);
+  write_rim_pairs(tyre, deck);
   for (const auto* side : {"LEFT", "RIGHT"})
     deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, -drive.speed, side);
   deck.line("*DSLOAD");

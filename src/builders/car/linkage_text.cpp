@@ -1,5 +1,7 @@
 #include "builders/car/linkage_text.hpp"
 
+#include <fmt/format.h>
+
 #include <cmath>
 
 #include "builders/car/body_deck.hpp"
@@ -13,10 +15,11 @@ void LinkageText::rigid(const RigidPart& part, const std::vector<std::int64_t>& 
   deck_.line("*ELEMENT, TYPE=MASS, ELSET=M_{}\n{}, {}\n*MASS, ELSET=M_{}\n{:g}", name, deck_.next_element(), node, name, part.mass);
   deck_.line("*ELEMENT, TYPE=ROTARYI, ELSET=I_{}\n{}, {}\n*ROTARY INERTIA, ELSET=I_{}\n{:.6g}, {:.6g}, {:.6g}", name,
              deck_.next_element(), node, name, own[0], own[1], own[2]);
-  if (points.empty()) return deck_.line("*RIGID BODY, REF NODE={}", node);
+  const auto surface = part.surface.empty() ? std::string() : fmt::format(", ANALYTICAL SURFACE={}", part.surface);
+  if (points.empty()) return deck_.line("*RIGID BODY, REF NODE={}{}", node, surface);
   deck_.line("*NSET, NSET=P_{}", name);
   deck_.numbers(points);
-  deck_.line("*RIGID BODY, REF NODE={}, TIE NSET=P_{}", node, name);
+  deck_.line("*RIGID BODY, REF NODE={}, TIE NSET=P_{}{}", node, name, surface);
 }
 
 void LinkageText::curve(const char* kind, const Characteristic& characteristic) {

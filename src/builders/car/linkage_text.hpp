@@ -14,6 +14,7 @@ struct RigidPart {
   double mass = 0.0;             // g
   Vector centre;                 // of gravity
   std::array<double, 3> size{};  // of the box, mm
+  std::string surface;           // analytical surface that it carries; may be empty
 };
 
 /// Force over travel or velocity of one component: straight (stiffness alone) or by rows (force, travel).

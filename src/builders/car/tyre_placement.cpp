@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include "builders/rim_profile.hpp"
 #include "builders/road_profile.hpp"
 #include "builders/tyre_mesh.hpp"
 #include "builders/tyre_report.hpp"
@@ -59,24 +60,32 @@ void append(const Model& tyre, const Vector& centre, const std::string& suffix, 
   }
 }
 
+std::int32_t add_surface(const std::string& name, AnalyticalSurface analytical, Model& model) {
+  model.surfaces.push_back({.kind = Surface::Kind::analytical, .name = name, .analytical = std::move(analytical)});
+  return static_cast<std::int32_t>(model.surfaces.size()) - 1;
+}
+
 std::int32_t add_road(const RoadSpec& road, const std::string& name, const Point& foot, std::int64_t first_id, Model& model) {
   const auto node = add_node(model, foot);
   model.nodes.row_of_id.erase(model.nodes.id[node]);
   model.nodes.id[node] = first_id + node + 1;
   model.nodes.row_of_id[model.nodes.id[node]] = node;
   add_node_set(model, name, {node});
-  Surface surface;
-  surface.kind = Surface::Kind::analytical;
-  surface.name = name + "_SURFACE";
-  surface.analytical = road_surface(road, foot);
-  model.surfaces.push_back(surface);
-  const auto row = static_cast<std::int32_t>(model.surfaces.size()) - 1;
+  const auto row = add_surface(name + "_SURFACE", road_surface(road, foot), model);
   RigidBody body;
   body.name = fmt::format("RIGID-{}", model.nodes.id[node]);
   body.reference_node = node;
   body.analytical_surface = row;
   model.rigid_bodies.push_back(body);
   return row;
+}
+
+void add_pair(std::int32_t slave, std::int32_t master, Model& model) {
+  ContactPair pair;
+  pair.slave = slave;
+  pair.master = master;
+  pair.interaction = 0;
+  model.contact_pairs.push_back(pair);
 }
 
 std::int32_t surface_row(const Model& model, const std::string& name) {
@@ -107,13 +116,11 @@ TyreFacts add_tyres(const TyreSpec& spec, const RoadSpec& road, const WheelPlace
     auto below = road;
     if (side[0] == 'R') below.pothole.depth = 0.0;  // only the left wheels go through it
     const auto master = add_road(below, std::string("ROAD_") + side, foot, first_id, model);
-    for (const auto* axle : {"FRONT_", "REAR_"}) {
-      ContactPair pair;
-      pair.slave = surface_row(model, std::string("TREAD_") + axle + side);
-      pair.master = master;
-      pair.interaction = 0;
-      model.contact_pairs.push_back(pair);
-    }
+    for (const auto* axle : {"FRONT_", "REAR_"}) add_pair(surface_row(model, std::string("TREAD_") + axle + side), master, model);
+  }
+  for (std::size_t wheel = 0; wheel < wheel_names.size() && strikes_rim(spec); ++wheel) {
+    const std::string name = wheel_names[wheel];
+    add_pair(surface_row(model, "STRIKE_" + name), add_surface("RIM_" + name, rim_surface(spec, places.centre[wheel].component), model), model);
   }
   return facts;
 }

@@ -23,8 +23,8 @@ struct TyreFacts {
 };
 
 /// Adds to an empty model: element sets, node sets and surfaces of the tyre builder with _FRONT_LEFT and so on behind their names;
-/// roads ROAD_LEFT and ROAD_RIGHT as rigid bodies, a pothole in the left one alone; contact of the treads with them. Ids begin
-/// behind `first_id`.
+/// roads ROAD_LEFT and ROAD_RIGHT as rigid bodies, a pothole in the left one alone; contact of the treads with them; surfaces RIM_FRONT_LEFT and
+/// so on, which the hubs' bodies are to carry, and their contact, where the tyres may strike their rims. Ids begin behind `first_id`.
 TyreFacts add_tyres(const TyreSpec& tyre, const RoadSpec& road, const WheelPlaces& places, std::int64_t first_id, Model& model);
 
 }  // namespace balocco::car

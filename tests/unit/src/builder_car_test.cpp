@@ -147,7 +147,13 @@ TEST(CarTyres, AreFourAlikeAtTheirWheels) {
   ASSERT_EQ(middles.size(), 4u);
   EXPECT_NEAR(middles[0][1] - middles[1][1], 1385.0, 1e-6);
   EXPECT_NEAR(middles[0][0] - middles[2][0], 2460.0, 1e-6);
-  EXPECT_EQ(model.contact_pairs.size(), 4u);
+  ASSERT_EQ(model.contact_pairs.size(), 8u);  // treads on roads, insides on rims
+  for (std::size_t wheel = 0; wheel < 4; ++wheel) {
+    const auto& pair = model.contact_pairs[4 + wheel];
+    EXPECT_EQ(model.surfaces[pair.slave].name, std::string("STRIKE_") + wheel_names[wheel]);
+    EXPECT_EQ(model.surfaces[pair.master].name, std::string("RIM_") + wheel_names[wheel]);
+    EXPECT_NE(car.car.find(std::string(", ANALYTICAL SURFACE=RIM_") + wheel_names[wheel]), std::string::npos);
+  }
 }
 
 TEST(CarBuilder, APotholeLiesBelowTheLeftWheelsAloneAndTheObstacleBelowBothSides) {

@@ -9,6 +9,7 @@
 
 #include "builder_sample.hpp"
 #include "builders/meridian_line.hpp"
+#include "builders/rim_profile.hpp"
 #include "builders/road_profile.hpp"
 #include "builders/section_picture.hpp"
 #include "builders/tyre_builder.hpp"
@@ -343,6 +344,32 @@ TEST(SectionPicture, DrawsEveryQuad) {
   for (auto at = svg.find("<polygon"); at != std::string::npos; at = svg.find("<polygon", at + 1)) ++polygons;
   EXPECT_EQ(polygons, section.quads.size());
   EXPECT_EQ(svg.substr(svg.size() - 7), "</svg>\n");
+}
+
+TEST(TyreRim, IsStruckWhereTheSpecSaysWhatLiesBetween) {
+  EXPECT_EQ(whole(2).contact_pairs.size(), 1u);
+  auto text = sample_tyre(2);
+  text.replace(text.find("flange_height = 15.5"), 20, "flange_height = 15.5\npad = 9.0");
+  std::string report;
+  const auto model = build_tyre(text, "t.toml", report);
+  ASSERT_EQ(model.contact_pairs.size(), 2u);
+  EXPECT_EQ(model.steps.back().active_contact_pairs, (std::vector<std::int32_t>{0, 1}));
+  EXPECT_EQ(model.steps.front().active_contact_pairs.size(), 0u);
+  const auto& profile = model.surfaces[model.contact_pairs[1].master].analytical->profile;
+  double highest = 0.0, widest = 0.0;
+  for (std::size_t i = 0; i < profile.size(); ++i) {
+    if (i > 0) EXPECT_EQ(profile[i].start, profile[i - 1].end);
+    highest = std::max(highest, profile[i].end[0]);
+  }
+  EXPECT_NEAR(highest, 177.4 + 15.5 + 9.0, 1e-9);  // the flange's edge with its rubber
+  const auto& faces = model.surfaces[model.contact_pairs[1].slave].faces;
+  ASSERT_FALSE(faces.empty());
+  for (const auto& face : faces)
+    for (const auto& corner : corners(model, model.elements[face.element.table], face.element.row)) {
+      EXPECT_GT(std::hypot(corner[0], corner[2]), highest + 5.0);  // nothing touches in the mould
+      widest = std::max(widest, std::abs(corner[1]));
+    }
+  EXPECT_GT(widest, 70.0);  // sidewalls too
 }
 
 }  // namespace
