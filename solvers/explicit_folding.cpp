@@ -19,6 +19,9 @@ constexpr std::array<Edges, 6> of_wedge{{{1, 2, 3}, {2, 0, 4}, {0, 1, 5}, {5, 4,
 /// Corners whose edges span less than this part of the product of their lengths are those of collapsed elements.
 constexpr double flat = 1e-6;
 
+/// Folded deeper than this part of the mean volume at its corners an element has turned inside out.
+constexpr double deepest_fold = 0.5;
+
 std::span<const Edges> corners_of(const ElementType& type) {
   if (type.section != Section::Kind::solid) return {};
   if (type.shape == Shape::hexahedron) return of_hexahedron;
@@ -34,22 +37,33 @@ double volume_at(int corner, const Edges& edges, double least, const auto& place
   return std::abs(volume) > least * std::sqrt(dot(a, a) * dot(b, b) * dot(c, c)) ? volume : 0.0;
 }
 
-/// A corner of an element that is folded now and was not in the reference configuration; -1: none.
-int folded_corner(const Analysis& analysis, std::span<const std::int32_t> nodes, std::span<const Edges> corners) {
+/// Corners of an element that are folded now and were not in the reference configuration; -1: none.
+struct Corners {
+  int folded = -1, inside_out = -1;
+};
+
+Corners folded_corners(const Analysis& analysis, std::span<const std::int32_t> nodes, std::span<const Edges> corners) {
   const auto now = [&](int i) {
     const double* const x = &analysis.current.position[4 * static_cast<std::size_t>(nodes[i])];
     return Vector3<double>{x[0], x[1], x[2]};
   };
   const auto reference = [&](int i) { return Vector3<double>{analysis.model.nodes.coordinates[analysis.domain.node_row[nodes[i]]]}; };
-  for (int corner = 0; corner < static_cast<int>(corners.size()); ++corner)
-    if (volume_at(corner, corners[corner], 0.0, now) < 0.0 && volume_at(corner, corners[corner], flat, reference) > 0.0) return corner;
-  return -1;
+  std::array<double, 8> volume{};
+  int deepest = -1;
+  double mean = 0.0;
+  for (int corner = 0; corner < static_cast<int>(corners.size()); ++corner) {
+    volume[corner] = volume_at(corner, corners[corner], 0.0, now);
+    mean += volume[corner] / static_cast<double>(corners.size());
+    if (volume[corner] < (deepest < 0 ? 0.0 : volume[deepest]) && volume_at(corner, corners[corner], flat, reference) > 0.0) deepest = corner;
+  }
+  if (deepest < 0) return {};
+  return {deepest, volume[deepest] < -deepest_fold * mean ? deepest : -1};
 }
 
 }  // namespace
 
-std::optional<FoldedCorner> find_folded_corner(const Analysis& analysis, const ElementFailures& failures) {
-  std::optional<FoldedCorner> found;
+Folding find_folding(const Analysis& analysis, const ElementFailures& failures) {
+  Folding found;
   for (std::size_t index = 0; index < analysis.element_groups.size(); ++index) {
     const auto& group = *analysis.element_groups[index];
     const auto& table = analysis.model.elements[group.table()];
@@ -58,10 +72,16 @@ std::optional<FoldedCorner> find_folded_corner(const Analysis& analysis, const E
     for (std::int32_t element = 0; element < group.size(); ++element) {
       if (!group.acts(element) || failures.failed(index, element, analysis.current.element_history[index])) continue;
       const auto nodes = group.nodes(element);
-      const int corner = folded_corner(analysis, nodes, corners);
+      const auto [folded, inside_out] = folded_corners(analysis, nodes, corners);
+      if (folded < 0) continue;
+      ++found.count;
       const auto id = table.id[group.row(element)];
-      if (corner >= 0 && (!found || id < found->element))
-        found = FoldedCorner{id, analysis.model.nodes.id[analysis.domain.node_row[nodes[corner]]]};
+      const auto take = [&](std::optional<FoldedCorner>& smallest, int corner) {
+        if (corner >= 0 && (!smallest || id < smallest->element))
+          smallest = FoldedCorner{id, analysis.model.nodes.id[analysis.domain.node_row[nodes[corner]]]};
+      };
+      take(found.first, folded);
+      take(found.inside_out, inside_out);
     }
   }
   return found;

@@ -1,8 +1,7 @@
-// Bricks and wedges that have turned inside out at a corner, where no integration point sees it.
+// Bricks and wedges that fold at a corner, where no integration point sees it.
 #pragma once
 
 #include <optional>
-#include <span>
 
 #include "analysis.hpp"
 #include "elements/failure.hpp"
@@ -13,9 +12,16 @@ struct FoldedCorner {
   std::int64_t element = -1, node = -1;  // ids
 };
 
-/// Laws hold out against a vanishing volume at integration points alone: behind them a node may pass through the opposite face, and
-/// elements of the other side go on as if nothing had happened. @return of this rank's elements that act and have not failed the one
-/// with the smallest id at one of whose corners the three edges have changed their sense since the reference configuration.
-std::optional<FoldedCorner> find_folded_corner(const Analysis& analysis, const ElementFailures& failures);
+/// Laws hold out against a vanishing volume at integration points alone. A corner whose three edges have changed their sense since the
+/// reference configuration is folded: its node has gone a third of the way to the opposite corner, and the mesh hardly follows. Where it
+/// goes on, by half the element's volume, the node passes through the opposite faces, and elements of the other side go on as if nothing
+/// had happened: the element has turned inside out.
+struct Folding {
+  std::int64_t count = 0;                        // elements of this rank that act, have not failed and are folded at a corner
+  std::optional<FoldedCorner> first;             // of these the one with the smallest id
+  std::optional<FoldedCorner> inside_out;        // likewise of those that have turned inside out
+};
+
+Folding find_folding(const Analysis& analysis, const ElementFailures& failures);
 
 }  // namespace balocco

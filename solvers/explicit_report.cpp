@@ -65,7 +65,7 @@ bool ExplicitStep::observe() {
   const bool landing = lands();
   if (!is_observed()) return true;
   fill_output();
-  remember_folding();
+  watch_folding();
   report_failure();
   if (analysis_.current.increment % regular_increments == 0 || landing || (finished() && !checked_before_landing_))
     check_energy_balance();
@@ -115,13 +115,23 @@ void ExplicitStep::remember_blow_up() {
       model.nodes.id[analysis_.domain.node_row[node]], element);
 }
 
-void ExplicitStep::remember_folding() {
-  const auto folded = failure_ ? std::nullopt : find_folded_corner(analysis_, failures_);
-  if (!folded) return;
-  failure_ = fmt::format(
-      "step {}, increment {}, time {:.6g}: element {} has turned inside out at node {}: it is distorted beyond what its mesh can "
-      "follow; use smaller elements or elements of a better shape there, let it fail (*SHEAR FAILURE), or load it less",
-      step_.name, analysis_.current.increment, analysis_.current.total_time, folded->element, folded->node);
+void ExplicitStep::watch_folding() {
+  const auto [count, first, inside_out] = failure_ ? Folding{} : find_folding(analysis_, failures_);
+  if (inside_out)
+    failure_ = fmt::format(
+        "step {}, increment {}, time {:.6g}: element {} has turned inside out at node {}: it is distorted beyond what its mesh can "
+        "follow; use smaller elements or elements of a better shape there, let it fail (*SHEAR FAILURE), or load it less",
+        step_.name, analysis_.current.increment, analysis_.current.total_time, inside_out->element, inside_out->node);
+  if (told_folding_) return;
+  const auto elements = analysis_.communicator.sum(count);
+  if (elements == 0) return;
+  told_folding_ = true;
+  const auto id = first ? first->element : std::numeric_limits<std::int64_t>::max();
+  const auto smallest = analysis_.communicator.minimum(Communicator::Located{static_cast<double>(id), id}).payload;
+  observer_.log(fmt::format(
+      "step {}, increment {}, time {:.6g}: warning: elements folded at a corner: {}, the first of them element {}: stresses there are poor, "
+      "and further on the run may end; use smaller elements there",
+      step_.name, analysis_.current.increment, analysis_.current.total_time, elements, smallest));
 }
 
 void ExplicitStep::start_energy_balance() {

@@ -103,8 +103,8 @@ class ExplicitStep {
   /// The new velocities of nodes, without constraints; where nobody looks, their new positions too. @return false: the run has blown up.
   bool move_nodes(const Instant& now);
   [[noreturn]] void report_collapse();
-  /// Elements that have turned inside out at a corner end the run, found whenever somebody looks.
-  void remember_folding();
+  /// Looked for whenever somebody looks: elements that have turned inside out at a corner end the run, the first folded ones are told.
+  void watch_folding();
   Progress progress() const;
 
   Analysis& analysis_;
@@ -137,6 +137,7 @@ class ExplicitStep {
   LocalStability stability_;
   double next_increment_ = 0.0, last_increment_ = 0.0;
   bool checked_before_landing_ = false;  // the energy balance
+  bool told_folding_ = false;           // by this run
   bool attention_ = true;               // the observer looks at this increment, and always at the start
   bool scales_masses_ = false;          // at the end of this increment
   bool nodes_are_ahead_ = false;        // they have moved over the increment to come, and their forces are cleared

@@ -160,6 +160,22 @@ def crushed_block(job):
         check(f"{element}: the reason is told", float("has turned inside out at node" in told), 1.0, 0.0)
 
 
+def folded_corner(job):
+    """A corner of a brick that is driven towards its middle: from a third of the diagonal on it is folded, which is told once, and the run
+    goes on; at the middle the element has turned inside out, and the run ends with the reason."""
+    for element in ("C3D8", "C3D8R"):
+        deck = block(1, 1, 1, (1.0, 1.0, 1.0), element, law="*HYPERELASTIC, NEO HOOKE\n1., 0.1", height=5.0)
+        push = "".join(f"*BOUNDARY, TYPE=VELOCITY\n1, {dof}, {dof}, 1000.\n" for dof in (1, 2, 3)) + "*BOUNDARY\nREST, 1, 3\n"
+        deck += "*NSET, NSET=REST, GENERATE\n2, 8\n"
+        step = "*STEP\n*DYNAMIC, EXPLICIT\n, {}\n" + push + ENERGIES.format(1e-5)
+        job.run(deck + step.format(3e-4))
+        check(f"{element}: nothing is folded", float("folded" in job.log()), 0.0, 0.0)
+        job.run(deck + step.format(4e-4))
+        check(f"{element}: a folded corner is told once", job.log().count("elements folded at a corner: 1, the first of them element 1"), 1, 0.0)
+        told = job.run(deck + step.format(6e-4), expected_status=3)
+        check(f"{element}: the reason is told", float("element 1 has turned inside out at node 1" in told), 1.0, 0.0)
+
+
 def past_the_end(job):
     """A block slides past the end of the profile: the log tells, once."""
     deck = block(2, 1, 1, (5.0, 5.0, 5.0)).replace("START, -100., 0.\nLINE, 100., 0.", "START, -5., 0.\nLINE, 12., 0.")
@@ -201,7 +217,7 @@ def rigid_part(job):
 
 
 CASES = {case.__name__: case for case in (bouncing_plate, hard_hits, hit_at_the_end, pressed_block, rubbing_block, lifted_block,
-                                          velocities_set_once, lost_energy, blown_up_at_the_end, crushed_block, past_the_end, below_the_ground,
+                                          velocities_set_once, lost_energy, blown_up_at_the_end, crushed_block, folded_corner, past_the_end, below_the_ground,
                                           rigid_part)}
 
 if __name__ == "__main__":
