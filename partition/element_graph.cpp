@@ -57,12 +57,6 @@ NodeElements elements_around_nodes(const Model& model, const std::vector<Element
   return around;
 }
 
-/// What one rigid body carries for good is not computed.
-bool rests(std::span<const std::int32_t> nodes, const std::vector<std::int32_t>& body_of) {
-  const auto body = body_of[nodes.front()];
-  return body >= 0 && nodes.size() > 1 && std::ranges::all_of(nodes, [&](std::int32_t node) { return body_of[node] == body; });
-}
-
 }  // namespace
 
 std::vector<ElementRef> graph_elements(const Model& model) {
@@ -97,7 +91,7 @@ Graph element_graph(const Model& model, const std::vector<ElementRef>& elements)
       shared[other] = 0;
     }
     graph.first.push_back(static_cast<std::int64_t>(graph.neighbour.size()));
-    const bool costs = !rests(nodes_of(model, elements[e]), body_of);
+    const bool costs = !rests_for_good(nodes_of(model, elements[e]), body_of);
     graph.weight.push_back(costs ? std::max<std::int64_t>(1, std::llround(type.cycle_cost)) : 1);
   }
   return graph;

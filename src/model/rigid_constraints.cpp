@@ -103,6 +103,11 @@ std::vector<std::int32_t> lasting_bodies(const Model& model) {
   return body_of;
 }
 
+bool rests_for_good(std::span<const std::int32_t> nodes, const std::vector<std::int32_t>& body_of) {
+  const auto body = body_of[nodes.front()];
+  return body >= 0 && nodes.size() > 1 && std::ranges::all_of(nodes, [&](std::int32_t node) { return body_of[node] == body; });
+}
+
 namespace {
 
 /// Takes joints out, but those of connectors, between nodes of one body; what follows others by their rows goes on doing so.

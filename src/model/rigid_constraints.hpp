@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,6 +12,8 @@ namespace balocco {
 
 /// Body of each node of the model that is its reference node or tied to it from the start to the end; -1: none.
 std::vector<std::int32_t> lasting_bodies(const Model& model);
+/// Whether an element of these nodes moves with one of them for good: it cannot strain and is not computed.
+bool rests_for_good(std::span<const std::int32_t> nodes, const std::vector<std::int32_t>& body_of);
 
 /// Leaves out joints (*MPC of type BEAM, kinematic couplings) between nodes that one rigid body carries for good and turns: so a
 /// part of a welded structure becomes rigid by one line. Joints of connectors stay: they have forces to tell. @return a note
