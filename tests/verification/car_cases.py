@@ -102,6 +102,7 @@ def equilibrium(balocco, ranks, folder):
     print(ride)
     assert 1.1 < next(frequency for frequency, kind in ride if kind.startswith("body: front")) < 1.5
     rolling(balocco, ranks, folder, loads, sum(last[name]["CFT"][-1][0] for name in loads))
+    same_bits(balocco, folder)
 
 
 def check_loads(folder, standing):
@@ -121,8 +122,7 @@ def check_loads(folder, standing):
 def rolling(balocco, ranks, folder, standing, held, duration=2.0):
     """The first milliseconds of the drive, from the equilibrium: it lacks nothing but the force that held the car along there, and wheels
     turn forward. What they carry is told: these tyres are polygons."""
-    text, count = re.subn(r"(?m)^, 400$", f", {duration}", open(os.path.join(folder, "drive.inp")).read())
-    assert count == 1
+    text = drive_of(folder, duration)
     spins = dict(re.findall(r"(?m)^WHEEL_(\w+), ([\d.]+), 0., 0., 0.", text))
     results = run(balocco, ranks, folder, "rolling", text, "--import", os.path.join(folder, "car.ckpt.h5"))
     log = open(os.path.join(folder, "rolling.log")).read()
@@ -139,6 +139,32 @@ def rolling(balocco, ranks, folder, standing, held, duration=2.0):
         turn, carried = last[f"node_{hub}/UR"][-1] - last[f"node_{hub}/UR"][0], last[name]["CFN"][-1][2]  # it stands on a wheel that has leaned
         print(f"{name}: turned by {turn[1]:.5f} of {spin * duration:.5f}, carries {carried:.0f} of {load:.0f} N")
         assert abs(turn[1] - spin * duration) < 0.02 * spin * duration, turn
+
+
+def drive_of(folder, duration):
+    text, count = re.subn(r"(?m)^, 400$", f", {duration}", open(os.path.join(folder, "drive.inp")).read())
+    assert count == 1
+    return text
+
+
+def same_bits(balocco, folder, duration=1.0):
+    """From one equilibrium the drive has the same bits on 1, 2 and 3 ranks, and where it was stopped on 3 and went on on 1."""
+    text, checkpoint = drive_of(folder, duration), ("--import", os.path.join(folder, "car.ckpt.h5"))
+    names = {ranks: f"drive_on_{ranks}" for ranks in ("1", "2", "3")}
+    for ranks, name in names.items():
+        run(balocco, ranks, folder, name, text, *checkpoint)
+    stop = os.path.join(folder, "stopped.ctl")
+    open(stop, "w").write("stop\n")  # looked for after 0.2 s
+    try:
+        run(balocco, "3", folder, "stopped", text, *checkpoint)
+        raise AssertionError("it was not stopped")
+    except subprocess.CalledProcessError as stopped:
+        assert stopped.returncode == 4, stopped
+    os.unlink(stop)
+    run(balocco, "1", folder, "stopped", text, "--restart")
+    for name in (names["2"], names["3"], "stopped"):
+        files = [os.path.join(folder, other + ".h5") for other in (names["1"], name)]
+        subprocess.run([balocco, "diff", *files], check=True)
 
 
 if __name__ == "__main__":

@@ -190,6 +190,7 @@ void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& fac
   for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -drive.speed);
   deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}",
             tyre.rolling.scale_factor, drive.duration, tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
+  if (drive.stable_increment > 0.0) deck.line("*FIXED MASS SCALING, TYPE=BELOW MIN, DT={:g}", drive.stable_increment);
   deck.line("*MODEL CHANGE, TYPE=CONTACT PAIR, ADD");
   write_road_pairs(deck);
   write_rim_pairs(tyre, deck);

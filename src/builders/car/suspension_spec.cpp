@@ -118,6 +118,7 @@ void read_drive(SpecTable& top, const std::string& obstacle, DriveSpec& drive) {
   }
   drive.frames = table.integer("frames", 1, 100000);
   drive.history_interval = table.number("history_interval", Bounds::positive("ms"));
+  drive.stable_increment = table.number("stable_increment", Bounds::not_negative("ms"), 0.0);
   table.refuse_unknown();
 }
 

@@ -55,6 +55,7 @@ struct DriveSpec {
   std::string obstacle;                           // comfort: under both sides; pothole: under the left wheels alone
   double speed = 0.0;                             // mm/ms
   double duration = 0.0, history_interval = 0.0;  // ms
+  double stable_increment = 0.0;                     // ms: elements that allow less are made denser; 0: none are
   int frames = 0;
 };
 
