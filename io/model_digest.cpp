@@ -2,6 +2,7 @@
 
 #include "constraints/guide.hpp"
 #include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
 #include "hash.hpp"
 
 namespace balocco {
@@ -49,10 +50,13 @@ std::string rigid_bodies(const Model& model) {
   return digest.text();
 }
 
+/// Every slave node has its own memory; of masters the shape may be another one.
 std::string contact_pairs(const Model& model) {
   Digest digest;
-  for (const auto& pair : model.contact_pairs)
+  for (const auto& pair : model.contact_pairs) {
     for (const auto surface : {pair.slave, pair.master}) digest.add(std::string_view(model.surfaces[surface].name));
+    digest.add_all(surface_nodes(model, model.surfaces[pair.slave]));
+  }
   return digest.text();
 }
 

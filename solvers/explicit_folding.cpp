@@ -74,13 +74,12 @@ Folding find_folding(const Analysis& analysis, const ElementFailures& failures) 
       const auto nodes = group.nodes(element);
       const auto [folded, inside_out] = folded_corners(analysis, nodes, corners);
       if (folded < 0) continue;
-      ++found.count;
       const auto id = table.id[group.row(element)];
       const auto take = [&](std::optional<FoldedCorner>& smallest, int corner) {
         if (corner >= 0 && (!smallest || id < smallest->element))
           smallest = FoldedCorner{id, analysis.model.nodes.id[analysis.domain.node_row[nodes[corner]]]};
       };
-      take(found.first, folded);
+      take(found.folded, folded);
       take(found.inside_out, inside_out);
     }
   }

@@ -16,10 +16,8 @@ struct FoldedCorner {
 /// reference configuration is folded: its node has gone a third of the way to the opposite corner, and the mesh hardly follows. Where it
 /// goes on, by half the element's volume, the node passes through the opposite faces, and elements of the other side go on as if nothing
 /// had happened: the element has turned inside out.
-struct Folding {
-  std::int64_t count = 0;                        // elements of this rank that act, have not failed and are folded at a corner
-  std::optional<FoldedCorner> first;             // of these the one with the smallest id
-  std::optional<FoldedCorner> inside_out;        // likewise of those that have turned inside out
+struct Folding {  // of this rank's elements that act and have not failed: the one with the smallest id
+  std::optional<FoldedCorner> folded, inside_out;
 };
 
 Folding find_folding(const Analysis& analysis, const ElementFailures& failures);

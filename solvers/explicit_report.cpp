@@ -116,22 +116,29 @@ void ExplicitStep::remember_blow_up() {
 }
 
 void ExplicitStep::watch_folding() {
-  const auto [count, first, inside_out] = failure_ ? Folding{} : find_folding(analysis_, failures_);
-  if (inside_out)
+  const auto folding = failure_ ? Folding{} : find_folding(analysis_, failures_);
+  const auto when = fmt::format("step {}, increment {}, time {:.6g}", step_.name, analysis_.current.increment, analysis_.current.total_time);
+  if (folding.inside_out && finished())
     failure_ = fmt::format(
-        "step {}, increment {}, time {:.6g}: element {} has turned inside out at node {}: it is distorted beyond what its mesh can "
-        "follow; use smaller elements or elements of a better shape there, let it fail (*SHEAR FAILURE), or load it less",
-        step_.name, analysis_.current.increment, analysis_.current.total_time, inside_out->element, inside_out->node);
-  if (told_folding_) return;
-  const auto elements = analysis_.communicator.sum(count);
-  if (elements == 0) return;
-  told_folding_ = true;
-  const auto id = first ? first->element : std::numeric_limits<std::int64_t>::max();
-  const auto smallest = analysis_.communicator.minimum(Communicator::Located{static_cast<double>(id), id}).payload;
-  observer_.log(fmt::format(
-      "step {}, increment {}, time {:.6g}: warning: elements folded at a corner: {}, the first of them element {}: stresses there are poor, "
-      "and further on the run may end; use smaller elements there",
-      step_.name, analysis_.current.increment, analysis_.current.total_time, elements, smallest));
+        "{}: element {} has turned inside out at node {} when the step ends: it is distorted beyond what its mesh can follow; use smaller "
+        "elements or elements of a better shape there, let it fail (*SHEAR FAILURE), or load it less",
+        when, folding.inside_out->element, folding.inside_out->node);
+  tell_first(told_folded_, folding.folded, [&](std::int64_t element) {
+    return fmt::format("{}: warning: element {} is folded at a corner: stresses there are poor; use smaller elements there", when, element);
+  });
+  tell_first(told_inside_out_, folding.inside_out, [&](std::int64_t element) {
+    return fmt::format(
+        "{}: warning: element {} has turned inside out at a corner: it is distorted beyond what its mesh can follow, and where it does not "
+        "recover the run fails at the end of the step", when, element);
+  });
+}
+
+/// Collective.
+void ExplicitStep::tell_first(bool& told, const std::optional<FoldedCorner>& found, const std::function<std::string(std::int64_t)>& text) {
+  if (told || !analysis_.communicator.any(found.has_value())) return;
+  told = true;
+  const auto id = found ? found->element : std::numeric_limits<std::int64_t>::max();
+  observer_.log(text(analysis_.communicator.minimum(Communicator::Located{static_cast<double>(id), id}).payload));
 }
 
 void ExplicitStep::start_energy_balance() {
@@ -219,11 +226,13 @@ void ExplicitStep::log_mass_scaling() const {
 
 void ExplicitStep::log_timers() const {
   std::int64_t elements = 0;
-  for (const auto& group : analysis_.element_groups) elements += group->size();
+  for (const auto& group : analysis_.element_groups) elements += group->acting_count();
   const double cycles = static_cast<double>(cycles_), total = timers.total();
   std::array<double, PhaseTimers::count + 1> largest{};
   for (std::size_t i = 0; i < PhaseTimers::count; ++i) largest[i] = timers.seconds(static_cast<Phase>(i));
   largest.back() = elements > 0 ? timers.seconds(Phase::elements) / (cycles * static_cast<double>(elements)) : 0.0;
+  std::array<double, 2> sums{timers.seconds(Phase::elements), 1.0};  // the second one: ranks
+  analysis_.communicator.sum(std::span<double>(sums));
   const double longest = analysis_.communicator.maximum(total);
   analysis_.communicator.maximum(std::span<double>(largest));
   std::string line = fmt::format(
@@ -231,6 +240,8 @@ void ExplicitStep::log_timers() const {
       1e9 * largest.back());
   for (std::size_t i = 0; i < PhaseTimers::count; ++i)
     line += fmt::format(" {} {:.1f} %", PhaseTimers::names[i], 100.0 * largest[i] / longest);
+  const double mean = sums[0] / sums[1], most = largest[static_cast<std::size_t>(Phase::elements)];
+  if (sums[1] > 1.0 && mean > 0.0) line += fmt::format("; elements take {:.1f} % longer there than on the mean rank", 100.0 * (most / mean - 1.0));
   observer_.log(line);
 }
 

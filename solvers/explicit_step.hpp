@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "elements/failure.hpp"
 #include "explicit_bodies.hpp"
 #include "explicit_contact.hpp"
+#include "explicit_folding.hpp"
 #include "explicit_gyroscopic.hpp"
 #include "explicit_linkages.hpp"
 #include "explicit_motion.hpp"
@@ -103,8 +105,10 @@ class ExplicitStep {
   /// The new velocities of nodes, without constraints; where nobody looks, their new positions too. @return false: the run has blown up.
   bool move_nodes(const Instant& now);
   [[noreturn]] void report_collapse();
-  /// Looked for whenever somebody looks: elements that have turned inside out at a corner end the run, the first folded ones are told.
+  /// Whenever somebody looks: the first folded element and the first that has turned inside out are told; those that are so when the step
+  /// ends make it fail. In between they may recover, as a tyre's do that a blow has crushed.
   void watch_folding();
+  void tell_first(bool& told, const std::optional<FoldedCorner>& found, const std::function<std::string(std::int64_t)>& text);
   Progress progress() const;
 
   Analysis& analysis_;
@@ -137,7 +141,7 @@ class ExplicitStep {
   LocalStability stability_;
   double next_increment_ = 0.0, last_increment_ = 0.0;
   bool checked_before_landing_ = false;  // the energy balance
-  bool told_folding_ = false;           // by this run
+  bool told_folded_ = false, told_inside_out_ = false;  // by this run
   bool attention_ = true;               // the observer looks at this increment, and always at the start
   bool scales_masses_ = false;          // at the end of this increment
   bool nodes_are_ahead_ = false;        // they have moved over the increment to come, and their forces are cleared
