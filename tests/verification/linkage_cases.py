@@ -1,0 +1,150 @@
+#!/usr/bin/env python3
+"""Linkages that spin and follow: linkage_cases.py CASE BALOCCO FOLDER."""
+import math
+import re
+
+import numpy as np
+
+from constraint_cases import G, explicit_step, history, integrate
+from explicit_cases import check, check_energy, run_case
+
+
+def heavy_top(run):
+    """A gyroscope: a rotor in hinge bearings on an arm that a Cardan joint at its foot lets swing and turn about the vertical.
+    It nutates and precesses as Lagrange's equations say, and its bearings stay together."""
+    arm, mass, spin = 0.5, 2.0, 120.0
+    axial, across = 0.02, 0.012                    # of the rotor
+    carrier_mass, carrier_axial, carrier_across = 0.3, 1e-3, 7e-3  # about its own middle, at half the arm
+    # The Cardan joint turns the arm about the vertical by a, then about the horizontal across it by b, downwards.
+    swing = mass * arm**2 + across + carrier_mass * (arm / 2)**2 + carrier_across
+    weight = G * (mass * arm + carrier_mass * arm / 2)
+    spin_momentum = axial * spin
+    vertical_momentum = 0.0  # released with a level arm that does not precess
+
+    def rate_of_turn(b):
+        return (vertical_momentum + spin_momentum * math.sin(b)) / (swing * math.cos(b)**2 + carrier_axial * math.sin(b)**2)
+
+    def motion(x):
+        a, b, rate = x
+        turn = rate_of_turn(b)
+        moment = ((carrier_axial - swing) * turn**2 * math.sin(b) + weight - spin_momentum * turn) * math.cos(b)
+        return np.array([turn, rate, moment / swing])
+
+    deck = lambda duration: f"""*NODE
+1, 0., 0., 0.
+2, 0., 0., 0.
+3, {arm / 2}, 0., 0.
+4, {arm}, 0., 0.
+5, {arm}, 0., 0.
+*NSET, NSET=ENDS
+2, 4
+*NSET, NSET=ROTOR
+5
+*NSET, NSET=OUT
+4, 5
+*ELEMENT, TYPE=MASS, ELSET=M_ROTOR
+11, 5
+*ELEMENT, TYPE=MASS, ELSET=M_ARM
+12, 3
+*MASS, ELSET=M_ROTOR
+{mass}
+*MASS, ELSET=M_ARM
+{carrier_mass}
+*ELEMENT, TYPE=ROTARYI, ELSET=I_ROTOR
+13, 5
+*ELEMENT, TYPE=ROTARYI, ELSET=I_ARM
+14, 3
+*ROTARY INERTIA, ELSET=I_ROTOR
+{axial}, {across}, {across}
+*ROTARY INERTIA, ELSET=I_ARM
+{carrier_axial}, {carrier_across}, {carrier_across}
+*RIGID BODY, REF NODE=3, TIE NSET=ENDS
+*ELEMENT, TYPE=CONN3D2, ELSET=FOOT
+15, 1, 2
+*ELEMENT, TYPE=CONN3D2, ELSET=BEARING
+16, 4, 5
+*ORIENTATION, NAME=UPRIGHT
+0., 0., 1., 1., 0., 0.
+*ORIENTATION, NAME=ALONG
+1., 0., 0., 0., 1., 0.
+*CONNECTOR SECTION, ELSET=FOOT
+UJOINT
+UPRIGHT
+*CONNECTOR SECTION, ELSET=BEARING
+HINGE
+ALONG
+*BOUNDARY
+1, 1, 6
+*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY
+ROTOR, {spin}
+0., 0., 0., 1., 0., 0.
+""" + explicit_step(1e-4, duration, f"*DLOAD\n, GRAV, {G}, 0., 0., -1.\n", history("OUT", "U", 0.01))
+    job = run(deck(2.0), 1)
+    time, u = job.history("node_5", "U")
+    a, b, _ = integrate(motion, [0.0, 0.0, 0.0], time).T
+    expected = arm * np.array([np.cos(a) * np.cos(b), np.sin(a) * np.cos(b), -np.sin(b)]).T
+    place = u + [arm, 0.0, 0.0]
+    check("it precesses and nutates", float(np.ptp(a) > 1.0 and np.ptp(b) > 0.05), 1.0, 0.0)
+    check("way of the rotor", np.abs(place - expected).max() / arm, 0.0, 1e-4)
+    check("gap of the bearing", np.abs(u - job.history("node_4", "U")[1]).max(), 0.0, 1e-9 * arm)
+    check("length of the arm", np.abs(np.linalg.norm(place, axis=1) - arm).max(), 0.0, 1e-9 * arm)
+    check_energy(job, 1e-3)
+    early = run(deck(0.1), 2).history("node_5", "U")[1]  # whose last increment ends a bit elsewhere
+    check("the same bits on two ranks", float(np.array_equal(early[:-1], u[:len(early) - 1])), 1.0, 0.0)
+
+
+def orders(log):
+    """Of convergence, by the last three residuals of each increment that lie between what is far away and round-off."""
+    found, residuals = [], []
+    for line in log.splitlines() + ["end"]:
+        match = re.search(r"iteration +(\d+): residual \S+ \((\S+) of the forces\)", line)
+        if match and int(match.group(1)) > 0:
+            residuals.append(float(match.group(2)))
+            continue
+        near = [r for r in residuals if 1e-11 < r < 1e-1]
+        if len(near) >= 3:
+            found.append(math.log(near[-1] / near[-2]) / math.log(near[-2] / near[-3]))
+        residuals = []
+    return found
+
+
+def blown_flaps(run):
+    """Two rigid flaps in a row on hinges with springs under a pressure that follows them: closed forms for any angle, and Newton's
+    iterations converge quadratically."""
+    lengths, width, pressure, stiffness = (0.5, 0.3), 0.2, 2e3, (120.0, 9.0)
+    nodes, shells = [], []
+    for flap, (start, length) in enumerate(zip((0.0, lengths[0]), lengths)):
+        first = 10 * flap + 11
+        for k, (x, y) in enumerate(((start, 0.0), (start + length, 0.0), (start + length, width), (start, width))):
+            nodes.append(f"{first + k}, {x!r}, {y!r}, 0.")
+        for k, x in enumerate((start, start + length, start + length / 2), 4):
+            nodes.append(f"{first + k}, {x!r}, {width / 2!r}, 0.")
+        shells.append(f"*ELEMENT, TYPE=S4R, ELSET=FLAP{flap}\n{flap + 1}, {first}, {first + 1}, {first + 2}, {first + 3}\n"
+                      f"*NSET, NSET=ENDS{flap}\n{first + 4}, {first + 5}")
+    # About the first hinge turn its own pressure and that of the second flap, whose arm depends on the angle between the flaps.
+    force = [pressure * width * length for length in lengths]
+    second = force[1] * lengths[1] / 2 / stiffness[1]
+    first = (force[0] * lengths[0] / 2 + force[1] * (lengths[0] * math.cos(second) + lengths[1] / 2)) / stiffness[0]
+    deck = "\n".join(["*NODE", *nodes, f"1, 0., {width / 2!r}, 0.", *shells, "*ELSET, ELSET=FLAPS\nFLAP0, FLAP1",
+                      "*MATERIAL, NAME=M\n*ELASTIC\n1e9, 0.3", "*SHELL SECTION, ELSET=FLAPS, MATERIAL=M\n0.001",
+                      *[f"*RIGID BODY, REF NODE={17 + 10 * i}, ELSET=FLAP{i}, TIE NSET=ENDS{i}" for i in (0, 1)],
+                      "*ELEMENT, TYPE=CONN3D2, ELSET=ROOT\n5, 1, 15", "*ELEMENT, TYPE=CONN3D2, ELSET=MIDDLE\n6, 16, 25",
+                      "*ORIENTATION, NAME=ACROSS\n0., 1., 0., 1., 0., 0.",
+                      *[f"*CONNECTOR BEHAVIOR, NAME={name}\n*CONNECTOR ELASTICITY, COMPONENT=4\n{k}\n"
+                        f"*CONNECTOR SECTION, ELSET={name}, BEHAVIOR={name}\nHINGE\nACROSS"
+                        for name, k in zip(("ROOT", "MIDDLE"), stiffness)],
+                      "*BOUNDARY\n1, 1, 6", "*STEP, NLGEOM\n*STATIC\n0.2, 1., 1e-6, 0.2", f"*DLOAD\nFLAPS, P, {pressure}",
+                      "*ELSET, ELSET=HINGES\nROOT, MIDDLE",
+                      "*OUTPUT, HISTORY, FREQUENCY=1\n*ELEMENT OUTPUT, ELSET=HINGES\nCU\n*END STEP\n"])
+    for ranks in (1, 2):
+        job = run(deck, ranks)
+        angles = [abs(job.history(f"element_{hinge}", "CU")[1][-1][3]) for hinge in (5, 6)]
+        check("angle of the first flap", angles[0], first, 1e-8)
+        check("angle of the second flap", angles[1], second, 1e-8)
+        found = orders(job.log())
+        check("increments with an order to tell", float(len(found) >= 3), 1.0, 0.0)
+        check("order of convergence", float(np.median(found)), 2.0, 0.25)
+
+
+if __name__ == "__main__":
+    run_case({case.__name__: case for case in (heavy_top, blown_flaps)})
