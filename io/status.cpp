@@ -8,10 +8,12 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <span>
 
 #include "elements/element_type.hpp"
 #include "materials/material_option.hpp"
 #include "model/diagnostics.hpp"
+#include "model/rigid_constraints.hpp"
 
 namespace balocco {
 
@@ -56,8 +58,11 @@ Status::Status(const std::string& status_path, const std::string& log_path, cons
   if (!root_) return;
   status_ = open_text(status_path, restarted);
   log_ = open_text(log_path, restarted);
+  const auto body_of = lasting_bodies(model);
   for (const ElementTable& table : model.elements) {
-    if (table.type->make_group != nullptr) element_count_ += table.size();
+    const auto nodes = static_cast<std::size_t>(table.type->nodes);
+    for (std::int32_t row = 0; row < table.size() && table.type->make_group != nullptr; ++row)
+      element_count_ += rests_for_good(std::span(table.connectivity).subspan(row * nodes, nodes), body_of) ? 0 : 1;
   }
   for (const Material& material : model.materials) can_fail_ |= find_option(material, "shear-failure") != nullptr;
   for (const Step& step : model.steps)
