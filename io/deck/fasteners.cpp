@@ -1,6 +1,5 @@
 // *FASTENER with *FASTENER PROPERTY: spot welds wherever their reference nodes are, on meshes that need not know of them. Every layer
-// moves the reference node with the weighted mean motion of its nodes around the weld (constraints/distributing_coupling.hpp), so that
-// the layers move as one there.
+// moves the reference node with itself (constraints/distributing_coupling.hpp, constraints/tie.hpp), so that the layers move as one there.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/surface_nodes.hpp"
+#include "elements/turning_nodes.hpp"
 
 namespace balocco::deck {
 
@@ -50,23 +50,27 @@ std::vector<Layer> read_layers(Builder& builder, const Block& block) {
   return layers.size() < 2 ? std::vector<Layer>{} : std::move(layers);
 }
 
-/// Nodes of a layer within the radius of influence about a place, weighted alike; where there are too few to tell a rotation, those of
-/// the face there, weighted so that their mean is the place itself.
-void add_cloud(const Model& model, const Layer& layer, const FacePoint& place, double influence, DistributingCoupling& coupling) {
+/// The reference node moves with the mean of the layer's nodes within the radius of influence about a place, weighted alike. Where there
+/// are too few to tell a rotation, it is held to the face there: of sheets by displacements and rotations between the nodes, which
+/// leaves neighbouring welds free to turn unlike; of solids by the mean of the face's nodes, weighted so that it is the place itself.
+ConstraintKind held_by(const Model& model, const Layer& layer, std::int32_t reference, const FacePoint& place, double influence,
+                       const std::vector<bool>& turns) {
+  DistributingCoupling cloud{.reference = reference, .nodes = {}, .weights = {}};
   for (const auto node : layer.nodes)
-    if (norm(subtract(model.nodes.coordinates[node], place.position)) <= influence) coupling.nodes.push_back(node);
-  coupling.weights.assign(coupling.nodes.size(), 1.0);
-  if (coupling.nodes.size() >= 3) return;
-  coupling.nodes.clear();
-  coupling.weights.clear();
+    if (norm(subtract(model.nodes.coordinates[node], place.position)) <= influence) cloud.nodes.push_back(node);
+  cloud.weights.assign(cloud.nodes.size(), 1.0);
+  if (cloud.nodes.size() >= 3) return cloud;
+  if (std::ranges::all_of(place.nodes, [&](std::int32_t node) { return turns[node]; }))
+    return Tie{.node = reference, .others = place.nodes, .weights = place.weights, .others_turn = true, .rotations = true};
+  cloud.nodes = place.nodes;
+  cloud.weights.clear();
   constexpr double least = 1e-3;  // a weld at a node still has a face around it, whose rotation is its own
-  for (std::size_t i = 0; i < place.nodes.size(); ++i) {
-    coupling.nodes.push_back(place.nodes[i]);
-    coupling.weights.push_back(std::max(place.weights[i], least));
-  }
+  for (const double weight : place.weights) cloud.weights.push_back(std::max(weight, least));
+  return cloud;
 }
 
-void add_weld(Builder& builder, const Block& block, std::int32_t reference, const std::vector<Layer>& layers, double radius) {
+void add_weld(Builder& builder, const Block& block, std::int32_t reference, const std::vector<Layer>& layers, double radius,
+              const std::vector<bool>& turns) {
   const double influence = block.real("RADIUS OF INFLUENCE", radius), reach = block.real("SEARCH RADIUS", HUGE_VAL);
   const auto& at = builder.model.nodes.coordinates[reference];
   for (const auto& layer : layers) {
@@ -75,9 +79,7 @@ void add_weld(Builder& builder, const Block& block, std::int32_t reference, cons
       return builder.error(block, block.location,
                            fmt::format("the weld at node {} finds no face of {} within its SEARCH RADIUS of {:.4g}; give a greater one, or move the node",
                                        builder.model.node_name(reference), layer.surface->name, reach));
-    DistributingCoupling coupling{.reference = reference, .nodes = {}, .weights = {}};
-    add_cloud(builder.model, layer, *place, influence, coupling);
-    builder.model.constraints.push_back({std::move(coupling), "*FASTENER", block.location.file, block.location.line});
+    builder.model.constraints.push_back({held_by(builder.model, layer, reference, *place, influence, turns), "*FASTENER", block.location.file, block.location.line});
   }
 }
 
@@ -96,7 +98,8 @@ void read_fastener(Builder& builder, const Block& block) {
     return builder.error(block, block.lines[0].location, "welds are projected along the normals of the faces; leave the line of the direction empty");
   const auto layers = read_layers(builder, block);
   if (layers.empty()) return;
-  for (const auto reference : references) add_weld(builder, block, reference, layers, property->second);
+  const auto turns = turning_nodes(builder.model);
+  for (const auto reference : references) add_weld(builder, block, reference, layers, property->second, turns);
 }
 
 const RegisterKeyword property{{"FASTENER PROPERTY", Phase::definitions, Place::model, {required(name("NAME"))}, read_property}};

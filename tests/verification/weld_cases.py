@@ -1,0 +1,91 @@
+#!/usr/bin/env python3
+"""Welded sheets against closed forms and against sheets that share their nodes: weld_cases.py CASE BALOCCO FOLDER."""
+from explicit_cases import check, run_case
+
+YOUNG, POISSON, THICKNESS = 210e3, 0.3, 1.0
+LENGTH, SLICES = 600.0, 30
+HALF_WIDTH, HEIGHT, FLANGE = 30.0, 50.0, 15.0
+
+
+def line(*points):
+    """A polyline through (y, z, divisions up to there)."""
+    nodes = [points[0][:2]]
+    for (y, z, _), (to_y, to_z, n) in zip(points, points[1:]):
+        nodes += [(y + (to_y - y) * i / n, z + (to_z - z) * i / n) for i in range(1, n + 1)]
+    return nodes
+
+
+def beam_deck(gap, pitch):
+    """A hat section closed by a plate: `gap` below its flanges and welded to them every `pitch`, or, without a
+    gap, joined to them by shared nodes."""
+    edge = HALF_WIDTH + FLANGE
+    hat = line((-edge, 0.0, 0), (-HALF_WIDTH, 0.0, 2), (-HALF_WIDTH, HEIGHT, 4), (HALF_WIDTH, HEIGHT, 4), (HALF_WIDTH, 0.0, 4),
+               (edge, 0.0, 2))
+    plate = line((-edge, -gap, 0), (-HALF_WIDTH, -gap, 2), (HALF_WIDTH, -gap, 4), (edge, -gap, 2))
+    nodes, shells, number = [], {"HAT": [], "PLATE": []}, {}
+    for name, places in (("HAT", hat), ("PLATE", plate)):
+        for i in range(SLICES + 1):
+            for y, z in places:
+                if (i, y, z) not in number:
+                    number[i, y, z] = len(number) + 1
+                    nodes.append(f"{number[i, y, z]}, {LENGTH * i / SLICES!r}, {y!r}, {z!r}")
+        for i in range(SLICES):
+            for a, b in zip(places, places[1:]):
+                corners = (number[(i, *a)], number[(i + 1, *a)], number[(i + 1, *b)], number[(i, *b)])
+                shells[name].append(f"{len(shells[name]) + (1 if name == 'HAT' else 5001)}, " + ", ".join(map(str, corners)))
+    ends = [", \n".join(str(n) for (slice_, _, _), n in number.items() if slice_ == at) for at in (0, SLICES)]
+    welds = []
+    if gap:
+        middles = [pitch * (k + 0.5) for k in range(int(LENGTH / pitch))]
+        out = HALF_WIDTH + FLANGE / 2
+        welds = ["*NODE, NSET=WELDS", *[f"{20001 + 2 * k + side}, {x!r}, {(2 * side - 1) * out!r}, {-gap / 2!r}"
+                                        for k, x in enumerate(middles) for side in (0, 1)],
+                 "*SURFACE, NAME=A\nHAT, SPOS", "*SURFACE, NAME=B\nPLATE, SPOS", "*FASTENER PROPERTY, NAME=SPOT\n3.",
+                 "*FASTENER, INTERACTION NAME=W, PROPERTY=SPOT, REFERENCE NODE SET=WELDS\n\nA, B"]
+    step = lambda moment, dof: (f"*STEP\n*STATIC\n*CLOAD, OP=NEW\n10002, {dof}, {moment}\n*OUTPUT, HISTORY, FREQUENCY=1\n"
+                                "*NODE OUTPUT, NSET=TIP\nUR\n*END STEP")
+    return "\n".join(["*NODE", *nodes, f"10001, 0., 0., {HEIGHT / 2!r}\n10002, {LENGTH!r}, 0., {HEIGHT / 2!r}",
+                      "*NSET, NSET=TIP\n10002",
+                      *[f"*ELEMENT, TYPE=S4R, ELSET={name}\n" + "\n".join(these) for name, these in shells.items()],
+                      *[f"*NSET, NSET=END{i}\n{members}\n*SURFACE, TYPE=NODE, NAME=FACE{i}\nEND{i}\n"
+                        f"*COUPLING, CONSTRAINT NAME=C{i}, REF NODE=1000{i}, SURFACE=FACE{i}\n*KINEMATIC\n1, 6" for i, members in enumerate(ends, 1)], *welds,
+                      f"*MATERIAL, NAME=STEEL\n*ELASTIC\n{YOUNG}, {POISSON}", "*ELSET, ELSET=ALL\nHAT, PLATE",
+                      f"*SHELL SECTION, ELSET=ALL, MATERIAL=STEEL\n{THICKNESS}",
+                      "*BOUNDARY\n10001, 1, 6", step(1e5, 4), step(1e5, 5), ""])
+
+
+def closed_forms(gap):
+    """Stiffness of torsion (Bredt) and of bending about the horizontal axis, of thin sheets. Shear flows around the cell through
+    the welds, in the middle of the flanges; where nodes are shared, through the feet of the webs."""
+    width, height, detour = 2 * HALF_WIDTH, HEIGHT + gap, FLANGE / 2 if gap else 0.0
+    cell, way = width * height + 2 * detour * gap, 2 * width + 2 * height + 4 * detour
+    torsion = YOUNG / (2 * (1 + POISSON)) * 4 * cell**2 * THICKNESS / way / LENGTH
+    strips = [(2 * FLANGE, 0.0, 0.0), (width, HEIGHT, 0.0), (2 * HEIGHT, HEIGHT / 2, HEIGHT), (width + 2 * FLANGE, -gap, 0.0)]
+    area = sum(breadth for breadth, _, _ in strips)
+    center = sum(breadth * z for breadth, z, _ in strips) / area
+    second = sum(breadth * ((z - center)**2 + tall**2 / 12) for breadth, z, tall in strips) * THICKNESS
+    return torsion, YOUNG * second / LENGTH
+
+
+def closed_section(run):
+    """A hat section closed by a plate that is welded to it, or shares its nodes, is as stiff as closed forms say. Welds in every
+    element do not lock; fewer ones leave it softer in torsion, as the shear must pass through them."""
+
+    def against_closed_form(gap, pitch, ranks):
+        job = run(beam_deck(gap, pitch), ranks)
+        turns = [abs(job.history("node_10002", "UR", step)[1][-1][axis]) for step, axis in ((1, 0), (2, 1))]
+        return [1e5 / turn / stiffness for turn, stiffness in zip(turns, closed_forms(gap))]
+
+    torsion, bending = against_closed_form(0.0, 0.0, 1)
+    check("torsion, nodes shared", torsion, 1.0, 0.03)
+    check("bending, nodes shared", bending, 1.0, 0.01)
+    dense, bending = against_closed_form(THICKNESS, LENGTH / SLICES, 2)
+    check("torsion, a weld in every element", dense, 1.0, 0.03)
+    check("bending, a weld in every element", bending, 1.0, 0.01)
+    sparse, bending = against_closed_form(THICKNESS, 3 * LENGTH / SLICES, 1)
+    check("torsion, a weld in every third element", float(0.85 < sparse < dense), 1.0, 0.0)
+    check("bending, a weld in every third element", bending, 1.0, 0.01)
+
+
+if __name__ == "__main__":
+    run_case({case.__name__: case for case in (closed_section,)})
