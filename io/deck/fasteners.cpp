@@ -1,15 +1,19 @@
-// *FASTENER with *FASTENER PROPERTY: spot welds wherever their reference nodes are, on meshes that need not know of them. Every layer
-// moves the reference node with itself (constraints/distributing_coupling.hpp, constraints/tie.hpp), so that the layers move as one there.
+// *FASTENER with *FASTENER PROPERTY: spot welds wherever their reference nodes are, on meshes that need not know of
+// them. Every layer moves the reference node with itself (constraints/distributing_coupling.hpp, constraints/tie.hpp),
+// so that the layers move as one there.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <utility>
 
 #include "constraints/face_projection.hpp"
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
+#include "elements/element_type.hpp"
 #include "elements/surface_nodes.hpp"
 #include "elements/turning_nodes.hpp"
 
@@ -18,7 +22,8 @@ namespace balocco::deck {
 namespace {
 
 void read_property(Builder& builder, const Block& block) {
-  if (block.lines.empty()) return builder.error(block, block.location, "the radius is missing; add a data line with it");
+  if (block.lines.empty())
+    return builder.error(block, block.location, "the radius is missing; add a data line with it");
   Row row(builder, block, block.lines[0]);
   const double radius = row.real(0, "radius");
   row.at_most(1);
@@ -50,18 +55,20 @@ std::vector<Layer> read_layers(Builder& builder, const Block& block) {
   return layers.size() < 2 ? std::vector<Layer>{} : std::move(layers);
 }
 
-/// The reference node moves with the mean of the layer's nodes within the radius of influence about a place, weighted alike. Where there
-/// are too few to tell a rotation, it is held to the face there: of sheets by displacements and rotations between the nodes, which
-/// leaves neighbouring welds free to turn unlike; of solids by the mean of the face's nodes, weighted so that it is the place itself.
-ConstraintKind held_by(const Model& model, const Layer& layer, std::int32_t reference, const FacePoint& place, double influence,
-                       const std::vector<bool>& turns) {
+/// The reference node moves with the mean of the layer's nodes within the radius of influence about a place, weighted
+/// alike. Where there are too few to tell a rotation, it is held to the face there: of sheets by displacements and
+/// rotations between the nodes, which leaves neighbouring welds free to turn unlike; of solids by the mean of the
+/// face's nodes, weighted so that it is the place itself.
+ConstraintKind held_by(const Model& model, const Layer& layer, std::int32_t reference, const FacePoint& place,
+                       double influence, const std::vector<bool>& turns) {
   DistributingCoupling cloud{.reference = reference, .nodes = {}, .weights = {}};
   for (const auto node : layer.nodes)
     if (norm(subtract(model.nodes.coordinates[node], place.position)) <= influence) cloud.nodes.push_back(node);
   cloud.weights.assign(cloud.nodes.size(), 1.0);
   if (cloud.nodes.size() >= 3) return cloud;
   if (std::ranges::all_of(place.nodes, [&](std::int32_t node) { return turns[node]; }))
-    return Tie{.node = reference, .others = place.nodes, .weights = place.weights, .others_turn = true, .rotations = true};
+    return Tie{
+        .node = reference, .others = place.nodes, .weights = place.weights, .others_turn = true, .rotations = true};
   cloud.nodes = place.nodes;
   cloud.weights.clear();
   constexpr double least = 1e-3;  // a weld at a node still has a face around it, whose rotation is its own
@@ -69,17 +76,83 @@ ConstraintKind held_by(const Model& model, const Layer& layer, std::int32_t refe
   return cloud;
 }
 
-void add_weld(Builder& builder, const Block& block, std::int32_t reference, const std::vector<Layer>& layers, double radius,
-              const std::vector<bool>& turns) {
-  const double influence = block.real("RADIUS OF INFLUENCE", radius), reach = block.real("SEARCH RADIUS", HUGE_VAL);
-  const auto& at = builder.model.nodes.coordinates[reference];
-  for (const auto& layer : layers) {
-    const auto place = layer.faces.nearest(at, reach);
-    if (!place)
+/// What a *FASTENER says of all of its welds.
+class Fastener {
+ public:
+  Fastener(Builder& builder, const Block& block, std::vector<Layer> layers, double radius)
+      : builder_(builder),
+        block_(block),
+        layers_(std::move(layers)),
+        influence_(block.real("RADIUS OF INFLUENCE", radius)),
+        reach_(block.real("SEARCH RADIUS", HUGE_VAL)),
+        turns_(turning_nodes(builder.model)) {}
+
+  /// A node to which all layers are held.
+  void add_weld(std::int32_t reference) {
+    for (const auto& layer : layers_)
+      if (!hold(reference, layer)) return;
+  }
+
+  /// A connector between two layers: each of its nodes is held to the one that is nearest, and the two to different
+  /// ones.
+  void add_connector(std::int32_t first, std::int32_t second) {
+    for (const auto& [node, other] : {std::pair{first, second}, std::pair{second, first}}) {
+      if (layer_of_.contains(node)) continue;
+      const auto taken = layer_of_.find(other);
+      const auto* layer = nearest_layer(node, taken == layer_of_.end() ? nullptr : taken->second);
+      if (!hold(node, *layer)) return;
+      layer_of_[node] = layer;
+    }
+  }
+
+ private:
+  const Layer* nearest_layer(std::int32_t node, const Layer* taken) const {
+    const Layer* nearest = nullptr;
+    double least = HUGE_VAL;
+    for (const auto& layer : layers_) {
+      if (&layer == taken) continue;
+      const auto place = layer.faces.nearest(builder_.model.nodes.coordinates[node], HUGE_VAL);
+      if (nearest != nullptr && !(place && place->distance < least)) continue;
+      nearest = &layer;
+      if (place) least = place->distance;
+    }
+    return nearest;
+  }
+
+  /// @return false, with an error, where no face is within reach
+  bool hold(std::int32_t node, const Layer& layer) {
+    const auto place = layer.faces.nearest(builder_.model.nodes.coordinates[node], reach_);
+    if (!place) {
+      builder_.error(block_, block_.location,
+                     fmt::format("the weld at node {} finds no face of {} within its SEARCH RADIUS of {:.4g}; give a "
+                                 "greater one, or move the node",
+                                 builder_.model.node_name(node), layer.surface->name, reach_));
+      return false;
+    }
+    builder_.model.constraints.push_back({held_by(builder_.model, layer, node, *place, influence_, turns_), "*FASTENER",
+                                          block_.location.file, block_.location.line});
+    return true;
+  }
+
+  Builder& builder_;
+  const Block& block_;
+  const std::vector<Layer> layers_;
+  const double influence_, reach_;
+  const std::vector<bool> turns_;
+  std::map<std::int32_t, const Layer*> layer_of_;  // of nodes of connectors
+};
+
+void add_connectors(Builder& builder, const Block& block, Fastener& fastener) {
+  std::vector<ElementRef> elements;
+  if (!builder.elements_of(block.value("ELSET"), block, block.location, elements)) return;
+  for (const auto element : elements) {
+    const auto& table = builder.model.elements[element.table];
+    if (table.type->section != Section::Kind::connector)
       return builder.error(block, block.location,
-                           fmt::format("the weld at node {} finds no face of {} within its SEARCH RADIUS of {:.4g}; give a greater one, or move the node",
-                                       builder.model.node_name(reference), layer.surface->name, reach));
-    builder.model.constraints.push_back({held_by(builder.model, layer, reference, *place, influence, turns), "*FASTENER", block.location.file, block.location.line});
+                           fmt::format("element {} of {} is no connector; fasteners are made of CONN3D2",
+                                       builder.model.element_name(element), block.value("ELSET")));
+    const auto* nodes = &table.connectivity[2 * static_cast<std::size_t>(element.row)];
+    fastener.add_connector(nodes[0], nodes[1]);
   }
 }
 
@@ -87,28 +160,38 @@ void read_fastener(Builder& builder, const Block& block) {
   const auto property = builder.fastener_radius.find(block.value("PROPERTY"));
   if (property == builder.fastener_radius.end()) {
     if (!builder.is_poisoned(block.value("PROPERTY")))
-      builder.error(block, block.location, fmt::format("fastener property {} is not defined; define *FASTENER PROPERTY, NAME={}", block.value("PROPERTY"),
-                                                       block.value("PROPERTY")));
+      builder.error(block, block.location,
+                    fmt::format("fastener property {} is not defined; define *FASTENER PROPERTY, NAME={}",
+                                block.value("PROPERTY"), block.value("PROPERTY")));
     return;
   }
-  std::vector<std::int32_t> references;
-  if (!builder.nodes_of(block.value("REFERENCE NODE SET"), block, block.location, references)) return;
+  if (block.has("ELSET") == block.has("REFERENCE NODE SET"))
+    return builder.error(block, block.location,
+                         "welds are either the nodes of a REFERENCE NODE SET, which hold all surfaces together, or "
+                         "connectors between two of them, an "
+                         "ELSET; give one of the two");
   // An empty first line leaves the direction of the projection to the faces; empty lines are no lines here.
   if (!block.lines.empty() && parse_real(Row(builder, block, block.lines[0]).text(0)))
-    return builder.error(block, block.lines[0].location, "welds are projected along the normals of the faces; leave the line of the direction empty");
-  const auto layers = read_layers(builder, block);
+    return builder.error(block, block.lines[0].location,
+                         "welds are projected along the normals of the faces; leave the line of the direction empty");
+  auto layers = read_layers(builder, block);
   if (layers.empty()) return;
-  const auto turns = turning_nodes(builder.model);
-  for (const auto reference : references) add_weld(builder, block, reference, layers, property->second, turns);
+  Fastener fastener(builder, block, std::move(layers), property->second);
+  if (block.has("ELSET")) return add_connectors(builder, block, fastener);
+  std::vector<std::int32_t> references;
+  if (!builder.nodes_of(block.value("REFERENCE NODE SET"), block, block.location, references)) return;
+  for (const auto reference : references) fastener.add_weld(reference);
 }
 
-const RegisterKeyword property{{"FASTENER PROPERTY", Phase::definitions, Place::model, {required(name("NAME"))}, read_property}};
-const RegisterKeyword fastener{{"FASTENER",
-                                Phase::constraints,
-                                Place::model,
-                                {required(name("PROPERTY")), required(name("REFERENCE NODE SET")), name("INTERACTION NAME"),
-                                 real("RADIUS OF INFLUENCE"), real("SEARCH RADIUS"), foreign("NUMBER OF LAYERS")},
-                                read_fastener}};
+const RegisterKeyword property{
+    {"FASTENER PROPERTY", Phase::definitions, Place::model, {required(name("NAME"))}, read_property}};
+const RegisterKeyword fastener{
+    {"FASTENER",
+     Phase::constraints,
+     Place::model,
+     {required(name("PROPERTY")), name("REFERENCE NODE SET"), name("ELSET"), name("INTERACTION NAME"),
+      real("RADIUS OF INFLUENCE"), real("SEARCH RADIUS"), foreign("NUMBER OF LAYERS")},
+     read_fastener}};
 
 }  // namespace
 

@@ -344,7 +344,7 @@ def welded_sheets(run):
     wherever else they are on the meshes nearly the same."""
     fasteners = "*FASTENER PROPERTY, NAME=SPOT\n0.003\n*FASTENER, INTERACTION NAME=W, PROPERTY=SPOT, REFERENCE NODE SET=WELDS\n\nA, B"
 
-    def lap(shift, join, ranks):
+    def lap(shift, join, ranks, output=""):
         nodes, shells = [], []
         for sheet in range(2):
             for i in range(13):
@@ -364,16 +364,29 @@ def welded_sheets(run):
                               join,
                               "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e9, 0.3\n*DENSITY\n7800.", "*SHELL SECTION, ELSET=BOTH, MATERIAL=STEEL\n0.004",
                               "*BOUNDARY\nLEFT, 1, 6\nRIGHT, 2, 6", "*STEP\n*STATIC\n*BOUNDARY\nRIGHT, 1, 1, 1e-4",
-                              "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=LEFT\nRF1\n*END STEP\n"]), ranks)
+                              "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=LEFT\nRF" + output + "\n*END STEP\n"]), ranks)
+
+    def forces(job):
+        return -sum(job.history(f"node_{j + 1}", "RF")[1][-1] for j in range(5))
 
     def force(job):
-        return -sum(job.history(f"node_{j + 1}", "RF1")[1][-1] for j in range(5))
+        return forces(job)[0]
 
     links = "*MPC\n" + "\n".join(f"BEAM, {1000 + 10 * (i - 8) + j + 1}, {10 * i + j + 1}" for i in (9, 10, 11) for j in (1, 2, 3))
     linked = force(lap(0.0, links, 1))
     at_nodes = force(lap(0.0, fasteners, 1))
     check("welds at nodes against rigid links", at_nodes / linked, 1.0, 1e-9)
-    check("welds between the nodes against those at nodes", force(lap(0.037, fasteners, 2)) / at_nodes, 1.0, 0.02)
+    between = force(lap(0.037, fasteners, 2))
+    check("welds between the nodes against those at nodes", between / at_nodes, 1.0, 0.02)
+    # Welds as connectors between the sheets tell their forces, which sum to what pulls the sheets.
+    connectors = "\n".join(["*NODE", *[f"{6001 + 3 * a + b}, {0.9 + 0.1 * a!r}, {0.1 + 0.1 * b!r}, 0.004" for a in range(3) for b in range(3)],
+                            "*ELEMENT, TYPE=CONN3D2, ELSET=SPOTS", *[f"{7001 + k}, {5001 + k}, {6001 + k}" for k in range(9)],
+                            "*CONNECTOR SECTION, ELSET=SPOTS\nBEAM\nGLOBAL", "*ORIENTATION, NAME=GLOBAL\n1., 0., 0., 0., 1., 0.",
+                            fasteners.replace("REFERENCE NODE SET=WELDS", "ELSET=SPOTS")])
+    job = lap(0.037, connectors, 2, "\n*ELEMENT OUTPUT, ELSET=SPOTS\nCTF")
+    check("welds as connectors", force(job) / between, 1.0, 1e-9)
+    sum_of_welds = sum(job.history(f"element_{7001 + k}", "CTF")[1][-1] for k in range(9))
+    check("forces of all welds against those on the sheets", np.abs(sum_of_welds[:3] - forces(job)).max() / force(job), 0.0, 1e-9)
 
 
 def rest_with_constraints(run):
