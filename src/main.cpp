@@ -32,7 +32,8 @@ namespace {
 enum ExitStatus { completed = 0, different = 1, bad_input = 2, analysis_failed = 3, stopped = 4, system_trouble = 5 };
 
 struct Command {
-  std::string deck, output = ".", last_step, spec, model_file, drive_file, obstacle, picture, results, other_results;
+  std::string deck, output = ".", last_step, spec, model_file, drive_file, kinematics_file, obstacle, picture, results;
+  std::string other_results;
   double relative = 0.0;
   std::vector<std::string> ignored_keywords;
   bool restart = false;
@@ -212,6 +213,7 @@ int build_car_deck(const Command& command) {
   const auto model = write_deck(car.tyres) + car.car;
   write_text(command.model_file, model + car.equilibrium);
   if (!command.drive_file.empty()) write_text(command.drive_file, model + car.drive);
+  if (!command.kinematics_file.empty()) write_text(command.kinematics_file, car.kinematics);
   fmt::print("{}", car.report);
   return completed;
 }
@@ -271,6 +273,7 @@ int dispatch(int argc, char** argv) {
   car_command->add_option("--output", command.model_file, "Deck of the equilibrium to write")->required();
   car_command->add_option("--drive", command.drive_file, "Deck of the drive to write, to be run with --import of the equilibrium");
 
+  car_command->add_option("--kinematics", command.kinematics_file, "Deck to write that moves the axles without tyres");
   car_command->add_option("--obstacle", command.obstacle, "Obstacle of the drive, instead of the description's: comfort or pothole")
       ->check(CLI::IsMember({"comfort", "pothole"}));
 

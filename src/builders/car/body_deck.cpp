@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <map>
 #include <set>
 
 #include "model/diagnostics.hpp"
@@ -20,6 +21,38 @@ const GaugeSpec& gauge_of(const CarSpec& spec, const Part& part) {
     throw InputError(
         fmt::format("{}:1: error: [gauge] {}: this part has no gauge; add it to the parts of one", spec.file_name, part.gauge));
   return found->second;
+}
+
+void write_welds(const CarSpec& spec, const BodyMesh& mesh, bool body, DeckText& deck) {
+  deck.comment("spot welds: the first node carries the others; each weld is a small system of its own");
+  deck.line("*MPC");
+  for (auto weld : mesh.welds()) {
+    if ((mesh.part_of(weld[0]).assembly == "BODY") != body) continue;
+    // A rigid node carries the others, so that nothing joins two of them by way of one that is not.
+    std::ranges::stable_partition(weld, [&](int node) { return is_rigid(spec, mesh.part_of(node)); });
+    for (std::size_t i = 1; i < weld.size(); ++i) deck.line("BEAM, {}, {}", weld[i] + 1, weld[0] + 1);
+  }
+}
+
+/// The parts of the body, or those of the other assemblies, with what they are pressed from and their welds.
+void write_parts(const CarSpec& spec, const BodyMesh& mesh, bool body, DeckText& deck) {
+  std::map<std::string, std::vector<const Part*>> assemblies;
+  for (const auto& part : mesh.parts())
+    if ((part.assembly == "BODY") == body) assemblies[part.assembly].push_back(&part);
+  for (const auto& [assembly, parts] : assemblies) {
+    for (const auto* part : parts) {
+      deck.line("*NODE, NSET=N_{}", part->name);
+      for (int node = part->first_node; node < part->first_node + part->nodes; ++node) deck.node(node + 1, mesh.nodes()[node]);
+      deck.line("*ELEMENT, TYPE=S4R, ELSET={}", part->name);
+      for (const auto& q : part->quadrilaterals)
+        deck.line("{}, {}, {}, {}, {}", deck.next_element(), q[0] + 1, q[1] + 1, q[2] + 1, q[3] + 1);
+      const auto& gauge = gauge_of(spec, *part);
+      deck.line("*SHELL SECTION, ELSET={}, MATERIAL={}\n{:g}, 5", part->name, upper(gauge.material), gauge.thickness);
+    }
+    deck.line("*ELSET, ELSET={}", assembly);
+    for (const auto* part : parts) deck.line("{}", part->name);
+  }
+  write_welds(spec, mesh, body, deck);
 }
 
 void write_mass(const MountSpec& mount, const std::string& name, std::int64_t node, DeckText& deck) {
@@ -41,12 +74,7 @@ void write_mount(const CarSpec& spec, const BodyMesh& mesh, const MountSpec& mou
   const auto name = upper(mount.name);
   const auto node = deck.named_node(name, mount.place);
   if (mount.mass > 0.0) write_mass(mount, name, node, deck);
-  std::vector<std::int64_t> ids;
-  for (const int carrier : carriers) ids.push_back(carrier + 1);
-  deck.line("*NSET, NSET=C_{}", name);
-  deck.numbers(ids);
-  deck.line("*SURFACE, TYPE=NODE, NAME=C_{}\nC_{}", name, name);
-  deck.line("*COUPLING, CONSTRAINT NAME={}, REF NODE={}, SURFACE=C_{}\n*DISTRIBUTING", name, node, name);
+  write_coupling(name, node, carriers, deck);
 }
 
 }  // namespace
@@ -85,32 +113,17 @@ void add_part(const CarSpec& spec, const BodyMesh& mesh, const Part& part, Inert
 }
 
 bool is_rigid(const CarSpec& spec, const Part& part) {
-  return spec.fidelity == "rigid" || (spec.fidelity == "semi-flexible" && !part.gauge.starts_with("STRUT_HOUSE"));
+  if (part.assembly == "REAR_AXLE") return false;
+  if (spec.fidelity == "semi-flexible") return part.assembly == "BODY" && !part.gauge.starts_with("STRUT_HOUSE");
+  return spec.fidelity == "rigid";
 }
 
 void write_body(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
+  deck.reserve_nodes(static_cast<std::int64_t>(mesh.nodes().size()));
+  deck.chapter("CHASSIS: pressings of the subframe and the rear axle");
+  write_parts(spec, mesh, false, deck);
   deck.chapter("BODY IN WHITE: every pressing is a part");
-  for (const auto& part : mesh.parts()) {
-    deck.line("*NODE, NSET=N_{}", part.name);
-    for (int node = part.first_node; node < part.first_node + part.nodes; ++node) deck.node(deck.next_node(), mesh.nodes()[node]);
-    deck.line("*ELEMENT, TYPE=S4R, ELSET={}", part.name);
-    for (const auto& q : part.quadrilaterals)
-      deck.line("{}, {}, {}, {}, {}", deck.next_element(), q[0] + 1, q[1] + 1, q[2] + 1, q[3] + 1);
-  }
-  deck.chapter("GAUGES");
-  for (const auto& part : mesh.parts()) {
-    const auto& gauge = gauge_of(spec, part);
-    deck.line("*SHELL SECTION, ELSET={}, MATERIAL={}\n{:g}, 5", part.name, upper(gauge.material), gauge.thickness);
-  }
-  deck.line("*ELSET, ELSET=BODY");
-  for (const auto& part : mesh.parts()) deck.line("{}", part.name);
-  deck.chapter("SPOT WELDS: the first node carries the others; each weld is a small system of its own");
-  deck.line("*MPC");
-  for (auto weld : mesh.welds()) {
-    // A rigid node carries the others, so that nothing joins two of them by way of one that is not.
-    std::ranges::stable_partition(weld, [&](int node) { return is_rigid(spec, mesh.part_of(node)); });
-    for (std::size_t i = 1; i < weld.size(); ++i) deck.line("BEAM, {}, {}", weld[i] + 1, weld[0] + 1);
-  }
+  write_parts(spec, mesh, true, deck);
 }
 
 std::vector<MountSpec> on_both_sides(const std::vector<MountSpec>& mounts) {
@@ -132,6 +145,15 @@ void write_mounts(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   for (const auto& mount : on_both_sides(spec.mounts)) write_mount(spec, mesh, mount, taken, deck);
   deck.chapter("MASSES: hung on free nodes of the parts around them");
   for (const auto& mass : on_both_sides(spec.masses)) write_mount(spec, mesh, mass, taken, deck);
+}
+
+void write_coupling(const std::string& name, std::int64_t node, const std::vector<int>& carriers, DeckText& deck) {
+  std::vector<std::int64_t> ids;
+  for (const int carrier : carriers) ids.push_back(carrier + 1);
+  deck.line("*NSET, NSET=C_{}", name);
+  deck.numbers(ids);
+  deck.line("*SURFACE, TYPE=NODE, NAME=C_{}\nC_{}", name, name);
+  deck.line("*COUPLING, CONSTRAINT NAME={}, REF NODE={}, SURFACE=C_{}\n*DISTRIBUTING", name, node, name);
 }
 
 void write_materials(const CarSpec& spec, DeckText& deck) {

@@ -26,14 +26,18 @@ class Inertia {
 
 void add_part(const CarSpec& spec, const BodyMesh& mesh, const Part& part, Inertia& inertia);
 
-/// Whether the chosen fidelity makes the part rigid: all, all but the strut houses, or none.
+/// Whether the chosen fidelity makes the part rigid: all, all but strut houses and subframe, or none. The beam between the trailing
+/// arms never is: it is the axle's spring in roll.
 bool is_rigid(const CarSpec& spec, const Part& part);
 
-/// Row i of the mesh becomes node i + 1: the body comes first in the deck.
+/// Row i of the mesh becomes node i + 1: they come first in the deck.
+/// Each assembly becomes an element set with its name; the chassis stands in a chapter of its own.
 void write_body(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck);
 /// Masses and mounts; each becomes a node set of one node with its name.
 void write_mounts(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck);
 void write_materials(const CarSpec& spec, DeckText& deck);
+/// A coupling that spreads what acts on the named node over the mesh's nodes.
+void write_coupling(const std::string& name, std::int64_t node, const std::vector<int>& carriers, DeckText& deck);
 
 /// Moments of inertia of a uniform box about its centre, g mm2.
 std::array<double, 3> box_inertia(double mass, const std::array<double, 3>& size);

@@ -46,8 +46,10 @@ class Cells {
 void BodyMesh::add(const Sheet& sheet) {
   Part part{.name = sheet.part,
             .gauge = sheet.part,
+            .assembly = assembly_,
             .first_node = static_cast<int>(nodes_.size()),
             .nodes = sheet.rows * sheet.columns,
+            .columns = sheet.columns,
             .quadrilaterals = {}};
   for (const char* side : {"_LEFT", "_RIGHT"})
     if (part.gauge.ends_with(side)) part.gauge.resize(part.gauge.size() - std::string(side).size());
@@ -162,8 +164,11 @@ std::vector<std::string> BodyMesh::loose_parts() const {
   for (const auto& weld : welds_)
     for (std::size_t i = 1; i < weld.size(); ++i) root[find_root(part_of_[weld[i]])] = find_root(part_of_[weld[0]]);
   std::vector<std::string> loose;
-  for (int part = 1; part < static_cast<int>(parts_.size()); ++part)
-    if (find_root(part) != find_root(0)) loose.push_back(parts_[part].name);
+  int first = 0;
+  for (int part = 1; part < static_cast<int>(parts_.size()); ++part) {
+    if (parts_[part].assembly != parts_[first].assembly) first = part;
+    if (find_root(part) != find_root(first)) loose.push_back(parts_[part].name);
+  }
   return loose;
 }
 

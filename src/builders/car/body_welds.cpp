@@ -115,6 +115,7 @@ constexpr Joined joined[]{
     {"HATCH_SILL", "REAR_PANEL", edge},
     {"HATCH_SILL", "SIDE_FRAME_INNER", edge},
     {"REAR_BUMPER_BEAM", "REAR_PANEL", edge},
+    {"SUBFRAME_UPPER", "SUBFRAME_LOWER"},
 };
 
 }  // namespace

@@ -13,6 +13,7 @@ namespace balocco {
 struct CarDeck {
   Model tyres;
   std::string car, equilibrium, drive;
+  std::string kinematics;  // a whole deck: the axles are moved, without tyres
   std::string report;  // masses, inertias and dimensions
 };
 

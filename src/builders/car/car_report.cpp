@@ -28,21 +28,23 @@ void warn_outside(std::string& text, const char* what, double value, double leas
 
 std::string car_report(const CarSpec& spec, const BodyMesh& mesh, const std::vector<WeldLine>& welds) {
   auto text = fmt::format("{}\n", spec.title);
-  Inertia body, car;
-  std::map<std::string, double> by_part;
+  Inertia car;
+  std::map<std::string, double> by_part, by_assembly;
   std::size_t shells = 0;
   for (const auto& part : mesh.parts()) {
     Inertia own;
     add_part(spec, mesh, part, own);
-    add_part(spec, mesh, part, body);
-    add_part(spec, mesh, part, car);
+    by_assembly[part.assembly] += own.mass();
+    if (part.assembly == "BODY") add_part(spec, mesh, part, car);
     by_part[part.gauge] += own.mass();
     shells += part.quadrilaterals.size();
   }
   for (const auto& [part, mass] : by_part)
     text += fmt::format("  mass {:<20} {:8.2f} kg   {:g} mm {}\n", part, mass / 1e3, spec.gauges.at(part).thickness,
                         spec.gauges.at(part).material);
-  text += fmt::format("  mass {:<20} {:8.2f} kg\n", "body in white", body.mass() / 1e3);
+  const double body = by_assembly.at("BODY") / 1e3;
+  text += fmt::format("  mass {:<20} {:8.2f} kg\n  mass {:<20} {:8.2f} kg\n  mass {:<20} {:8.2f} kg\n", "body in white", body,
+                      "subframe", by_assembly.at("SUBFRAME") / 1e3, "torsion beam", by_assembly.at("REAR_AXLE") / 1e3);
   for (const auto& mass : on_both_sides(spec.masses)) {
     car.add_box(mass.mass, mass.place, mass.size);
     text += fmt::format("  mass {:<20} {:8.2f} kg   hung at {:.0f}, {:.0f}, {:.0f}\n", mass.name, mass.mass / 1e3, mass.place[0],
@@ -64,7 +66,7 @@ std::string car_report(const CarSpec& spec, const BodyMesh& mesh, const std::vec
   text += fmt::format("  mesh                 {} nodes, {} S4R in {} parts, {} welds in {} places of {} seams\n",
                       mesh.nodes().size(), shells, mesh.parts().size(), mesh.welds().size(), places, welds.size());
   // Bodies in white of three-door cars of this size and time, without doors, bonnet and wings' bolts: 180 to 260 kg.
-  warn_outside(text, "the body in white's mass", body.mass() / 1e3, 180.0, 260.0, "kg");
+  warn_outside(text, "the body in white's mass", body, 180.0, 260.0, "kg");
   return text;
 }
 

@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <span>
 
 #include "builders/spec_table.hpp"
 
@@ -52,6 +54,7 @@ void read_profile(SpecTable& top, ProfileSpec& profile) {
   profile.front_track = table.number("front_track", Bounds::positive("mm"));
   profile.rear_track = table.number("rear_track", Bounds::positive("mm"));
   profile.wheel_height = table.number("wheel_height", Bounds::positive("mm"));
+  profile.wheel_height_line = table.line_of("wheel_height");
   profile.plan = read_graph(table, "plan");
   profile.section = read_graph(table, "section");
   profile.waist = read_graph(table, "waist");
@@ -168,6 +171,29 @@ void read_gauges(SpecTable& top, CarSpec& spec) {
   all.refuse_unknown();
 }
 
+/// Mounts on both sides, but the engine's.
+constexpr const char* needed_mounts[]{"strut_mount_front",   "spring_seat_rear",   "damper_mount_rear",
+                                      "axle_pivot",          "subframe_mount_front", "subframe_mount_rear",
+                                      "engine_mount_left",   "engine_mount_right", "engine_mount_rear"};
+
+/// The rear axle swings about pivots ahead of its wheels; the strut's top is where the body carries it.
+void check_mounts(SpecTable& top, const CarSpec& spec) {
+  auto mounts = top.table("mount");
+  const auto place_of = [&](const char* name) {
+    const auto found = std::ranges::find(spec.mounts, name, &MountSpec::name);
+    return found == spec.mounts.end() ? std::nullopt : std::optional(found->place);
+  };
+  const auto fault = [&](const char* name, const std::string& words) { mounts.table(name).fault("place", words); };
+  if (const auto pivot = place_of("axle_pivot"); pivot && (*pivot)[0] <= -spec.profile.wheelbase)
+    fault("axle_pivot", fmt::format("the arm's pivot does not lie ahead of the rear wheels at x = {:g}; move it forward",
+                                    -spec.profile.wheelbase));
+  if (const auto top_mount = place_of("strut_mount_front"); top_mount && length(*top_mount - spec.body.strut_top) > 1.0)
+    fault("strut_mount_front", fmt::format("it lies {:.0f} mm from [body] strut_top, where the strut ends; give both one place",
+                                           length(*top_mount - spec.body.strut_top)));
+  if (const auto seat = place_of("spring_seat_rear"); seat && (*seat)[2] <= spec.chassis.rear.spring_seat[2])
+    fault("spring_seat_rear", "it lies below the arm's [rear] spring_seat: the spring has no room; raise it");
+}
+
 std::vector<MountSpec> read_mounts(SpecTable& top, const char* kind, bool heavy) {
   std::vector<MountSpec> mounts;
   auto all = top.table(kind);
@@ -186,6 +212,9 @@ std::vector<MountSpec> read_mounts(SpecTable& top, const char* kind, bool heavy)
     table.refuse_unknown();
     mounts.push_back(std::move(mount));
   }
+  for (const auto* name : heavy ? std::span<const char* const>{} : std::span<const char* const>(needed_mounts))
+    if (std::ranges::find(mounts, name, &MountSpec::name) == mounts.end())
+      all.fault(name, fmt::format("missing; the chassis hangs there: add a table [{}.{}]", kind, name));
   all.refuse_unknown();
   return mounts;
 }
@@ -194,7 +223,8 @@ std::vector<MountSpec> read_mounts(SpecTable& top, const char* kind, bool heavy)
 
 const std::vector<std::string> member_names{
     "sill",         "hinge_pillar", "b_pillar",    "side_frame", "front_rail", "upper_rail",  "rail_extension", "rear_rail",
-    "cross_member", "cowl",         "front_frame", "bumper",     "dash_beam",  "roof_header", "roof_bow",       "waist_rail"};
+    "cross_member", "cowl",         "front_frame", "bumper",     "dash_beam",  "roof_header", "roof_bow",       "waist_rail",
+    "subframe"};
 
 CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const std::string& obstacle) {
   const auto file = parse_spec(toml_text, file_name);
@@ -214,7 +244,10 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   read_gauges(top, spec);
   spec.masses = read_mounts(top, "mass", true);
   spec.mounts = read_mounts(top, "mount", false);
-  read_chassis(top, obstacle, spec.chassis);
+  ChassisPlace place{.materials = {}, .strut_top = spec.body.strut_top, .wheel_height = spec.profile.wheel_height};
+  for (const auto& material : spec.materials) place.materials.push_back(material.name);
+  read_chassis(top, obstacle, place, spec.chassis);
+  check_mounts(top, spec);
   top.refuse_unknown();
   faults.throw_if_any();
   return spec;

@@ -1,5 +1,7 @@
 #include "builders/car/car_steps.hpp"
 
+#include <map>
+
 #include "builders/rim_profile.hpp"
 #include "builders/tyre_steps.hpp"
 
@@ -21,6 +23,11 @@ void write_road_pairs(DeckText& deck) {
 void write_rim_pairs(const TyreSpec& tyre, DeckText& deck) {
   for (const auto* wheel : wheel_names)
     if (strikes_rim(tyre)) deck.line("STRIKE_{}, RIM_{}", wheel, wheel);
+}
+
+void hold_body(const CarSpec& spec, DeckText& deck) {
+  if (spec.fidelity != "complete") return deck.line("BODY_REFERENCE, 1, 6");
+  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("STRUT_MOUNT_FRONT_{}, 1, 3\nSPRING_SEAT_REAR_{}, 1, 3", side, side);
 }
 
 /// What every step tells over its time: hubs and roads, tyres, and the connectors by which they load the car.
@@ -127,10 +134,7 @@ class StepText {
     for (const auto* side : {"LEFT", "RIGHT"})
       deck_.line("ROAD_{}, 1, 2\nROAD_{}, 3, 3, {:g}\nROAD_{}, 4, 6", side, side, up, side);
   }
-  void hold_body() {
-    if (spec_.fidelity != "complete") return deck_.line("BODY_REFERENCE, 1, 6");
-    for (const auto* side : {"LEFT", "RIGHT"}) deck_.line("STRUT_MOUNT_FRONT_{}, 1, 3\nSPRING_SEAT_REAR_{}, 1, 3", side, side);
-  }
+  void hold_body() { car::hold_body(spec_, deck_); }
   void inflate(double pressure) {
     deck_.line("*DSLOAD");
     for (const auto* wheel : wheel_names) deck_.line("LINER_{}, P, {:g}", wheel, pressure);
@@ -154,14 +158,18 @@ class StepText {
 void write_fidelity(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   deck.chapter("FIDELITY: " + spec.fidelity);
   if (spec.fidelity == "complete") return;
-  deck.line("*ELSET, ELSET=RIGID_PARTS");
-  Inertia rigid;
-  for (const auto& part : mesh.parts()) {
-    if (!is_rigid(spec, part)) continue;
-    deck.line("{}", part.name);
-    add_part(spec, mesh, part, rigid);
+  std::map<std::string, std::vector<const Part*>> rigid;
+  for (const auto& part : mesh.parts())
+    if (is_rigid(spec, part)) rigid[part.assembly].push_back(&part);
+  for (const auto& [assembly, parts] : rigid) {
+    deck.line("*ELSET, ELSET=RIGID_{}", assembly);
+    Inertia inertia;
+    for (const auto* part : parts) {
+      deck.line("{}", part->name);
+      add_part(spec, mesh, *part, inertia);
+    }
+    deck.line("*RIGID BODY, REF NODE={}, ELSET=RIGID_{}", deck.named_node(assembly + "_REFERENCE", inertia.centre()), assembly);
   }
-  deck.line("*RIGID BODY, REF NODE={}, ELSET=RIGID_PARTS", deck.named_node("BODY_REFERENCE", rigid.centre()));
 }
 
 void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck) {
@@ -173,6 +181,24 @@ void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFact
   steps.touch();
   steps.stand();
   steps.ride();
+}
+
+void write_kinematics(const CarSpec& spec, double travel, DeckText& deck) {
+  deck.chapter("KINEMATICS: wheels up and down");
+  struct Motion {
+    const char* name;
+    double left, right;  // in parts of the travel
+  };
+  for (const auto& [name, left, right] : {Motion{"BUMP", 1.0, 1.0}, Motion{"REBOUND", -1.0, -1.0}, Motion{"ROLL", 0.5, -0.5}}) {
+    deck.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}\n*BOUNDARY, OP=NEW", name, 0.05 * period,
+              period, 1e-5 * period, 0.05 * period);
+    hold_body(spec, deck);
+    for (const std::string wheel : wheel_names)
+      deck.line("HUB_{}, 3, 3, {:g}\nHUB_{}, 5, 5", wheel, travel * (wheel.ends_with("LEFT") ? left : right), wheel);
+    deck.line("*OUTPUT, HISTORY, FREQUENCY=1");
+    for (const auto* wheel : wheel_names) deck.line("*NODE OUTPUT, NSET=HUB_{}\nU, UR, RF", wheel);
+    deck.line("*END STEP");
+  }
 }
 
 void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, const CornerWeights& loads, DeckText& deck) {

@@ -39,6 +39,8 @@ class DeckText {
   /// Where the named node lies. @throws InputError as node_of.
   const Vector& place_of(const std::string& name) const;
 
+  /// Gives the next ids away; who asked for them writes the nodes.
+  void reserve_nodes(std::int64_t count) { nodes_ += count; }
   std::int64_t next_node() { return ++nodes_; }
   std::int64_t next_element() { return ++elements_; }
   const std::string& text() const { return text_; }

@@ -1,6 +1,13 @@
 #include "builders/car/suspension.hpp"
 
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "builders/car/anti_roll_bar.hpp"
+#include "builders/car/chassis_shells.hpp"
 #include "builders/car/linkage_text.hpp"
+#include "model/diagnostics.hpp"
 
 namespace balocco::car {
 namespace {
@@ -64,6 +71,40 @@ Vector hard_point(const CarSpec& spec, const Vector& point) {
   return {point[0], point[1], spec.profile.wheel_height + point[2]};
 }
 
+/// Feet, arms, rack and anti-roll bar on the subframe: each is carried by the free nodes of its sheet that lie closest to it.
+void write_subframe(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
+  const auto& front = spec.chassis.front;
+  struct Seat {
+    std::string name;
+    Vector place;
+    std::vector<int> carriers;
+  };
+  std::vector<Seat> seats;
+  for (const auto& side : sides) {
+    for (const auto& [name, place] :
+         {std::pair{"SUBFRAME_ARM_FRONT_", front.arm_front}, std::pair{"SUBFRAME_ARM_REAR_", front.arm_rear},
+          std::pair{"SUBFRAME_RACK_", front.rod_inner}})
+      seats.push_back({std::string(name) + side.name, side(hard_point(spec, place)), {}});
+    seats.push_back({std::string("SUBFRAME_BAR_") + side.name, side(bar_seat(spec)), {}});
+    for (const auto* end : {"FRONT_", "REAR_"}) {
+      const auto foot = std::string(end) + side.name;
+      seats.push_back({"SUBFRAME_FOOT_" + foot, deck.place_of("SUBFRAME_MOUNT_" + foot), {}});
+    }
+  }
+  for (const int node : mesh.free_nodes({"SUBFRAME_UPPER", "SUBFRAME_LOWER"}, {}, 1e9)) {
+    const auto away = [&](const Seat& seat) { return length(seat.place - mesh.nodes()[node]); };
+    auto& seat = *std::ranges::min_element(seats, {}, away);
+    if (away(seat) <= front.subframe.reach) seat.carriers.push_back(node);
+  }
+  for (const auto& seat : seats) {
+    if (seat.carriers.size() < 3)
+      throw InputError(fmt::format("{}:1: error: [front.subframe] reach: {} nodes of its sheet carry {}, and three are needed; "
+                                   "reach farther, or lead its line nearer",
+                                   spec.file_name, seat.carriers.size(), seat.name));
+    write_coupling(seat.name, deck.named_node(seat.name, seat.place), seat.carriers, deck);
+  }
+}
+
 void write_corner(const CarSpec& spec, const Side& side, DeckText& deck) {
   const auto& front = spec.chassis.front;
   const std::string s = side.name;
@@ -75,7 +116,7 @@ void write_corner(const CarSpec& spec, const Side& side, DeckText& deck) {
   const auto arm_ball = linkage.point("ARM_BALL_" + s, at(front.ball_joint));
   auto arm = front.arm;
   arm.centre = hard_point(spec, arm.centre);
-  linkage.rigid(side(arm, "LOWER_ARM"), {arm_front, arm_rear, arm_ball});
+  linkage.rigid(side(arm, "LOWER_ARM"), {arm_front, arm_rear, arm_ball, linkage.point("ARM_LINK_" + s, side(bar_link(spec)))});
   const auto ball = linkage.point("KNUCKLE_BALL_" + s, at(front.ball_joint)),
              tube = linkage.point("STRUT_TUBE_" + s, at(front.strut_lower));
   const auto steer = linkage.point("KNUCKLE_STEER_" + s, at(front.rod_outer)),
@@ -107,11 +148,15 @@ std::array<Vector, 4> wheel_centres(const CarSpec& spec) {
 
 Inertia sprung_mass(const CarSpec& spec, const BodyMesh& mesh) {
   Inertia sprung;
-  for (const auto& part : mesh.parts()) add_part(spec, mesh, part, sprung);
+  for (const auto& part : mesh.parts())
+    if (part.assembly != "REAR_AXLE") add_part(spec, mesh, part, sprung);
   for (const auto& mass : on_both_sides(spec.masses)) sprung.add_box(mass.mass, mass.place, mass.size);
-  for (const auto* part : {&spec.chassis.engine.block, &spec.chassis.front.subframe})
-    sprung.add_box(part->mass, part->centre, part->size);
-  for (const auto& side : sides) sprung.add(spec.chassis.front.rod_mass, side(spec.body.strut_top));
+  const auto& block = spec.chassis.engine.block;
+  sprung.add_box(block.mass, block.centre, block.size);
+  for (const auto& side : sides) {
+    sprung.add(spec.chassis.front.rod_mass, side(spec.body.strut_top));
+    sprung.add(0.5 * bar_mass(spec), side(bar_seat(spec)));
+  }
   return sprung;
 }
 
@@ -126,7 +171,7 @@ CornerWeights wheel_loads(const CarSpec& spec, const CornerWeights& sprung, doub
           .rear = sprung.rear + gravity * (rear.arm.mass + rear.wheel_hub.mass + tyre_mass)};
 }
 
-void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, DeckText& deck) {
+void write_front_suspension(const CarSpec& spec, const BodyMesh& mesh, const CornerWeights& weights, DeckText& deck) {
   const auto& front = spec.chassis.front;
   const Vector lower = hard_point(spec, front.strut_lower), top = spec.body.strut_top;
   LinkageText linkage(deck);
@@ -142,20 +187,7 @@ void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, D
                      .elasticity = {{.component = 1, .table = spring_with_stops(front.strut, load)}},
                      .damping = {{.component = 1, .table = damper_curve(front.strut)}},
                      .free_length = length_now + load / front.strut.spring_rate});
-  std::vector<std::int64_t> points;
-  for (const auto& side : sides) {
-    const std::string s = side.name;
-    for (const auto& [name, place] :
-         {std::pair{"SUBFRAME_ARM_FRONT_", front.arm_front}, std::pair{"SUBFRAME_ARM_REAR_", front.arm_rear},
-          std::pair{"SUBFRAME_RACK_", front.rod_inner}})
-      points.push_back(linkage.point(name + s, side(hard_point(spec, place))));
-    for (const auto* end : {"FRONT_", "REAR_"})
-      points.push_back(
-          linkage.point(std::string("SUBFRAME_FOOT_") + end + s, deck.place_of(std::string("SUBFRAME_MOUNT_") + end + s)));
-  }
-  auto subframe = front.subframe;
-  subframe.name = "SUBFRAME";
-  linkage.rigid(subframe, points);
+  write_subframe(spec, mesh, deck);
   for (const auto& side : sides)
     for (const auto* end : {"FRONT_", "REAR_"}) {
       const auto name = std::string("SUBFRAME_MOUNT_") + end + side.name;
@@ -163,9 +195,10 @@ void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, D
                         deck.node_of(std::string("SUBFRAME_FOOT_") + end + side.name), "", "SUBFRAME_MOUNT");
     }
   for (const auto& side : sides) write_corner(spec, side, deck);
+  write_anti_roll_bar(spec, deck);
 }
 
-void write_rear_suspension(const CarSpec& spec, const CornerWeights& weights, DeckText& deck) {
+void write_rear_suspension(const CarSpec& spec, const BodyMesh& mesh, const CornerWeights& weights, DeckText& deck) {
   const auto& rear = spec.chassis.rear;
   LinkageText linkage(deck);
   deck.chapter("REAR SUSPENSION: trailing arms, joined by a beam that twists");
@@ -182,24 +215,20 @@ void write_rear_suspension(const CarSpec& spec, const CornerWeights& weights, De
   linkage.behaviour({.name = "DAMPER_REAR",
                      .elasticity = {{.component = 1, .table = spring_with_stops(stops, 0.0)}},
                      .damping = {{.component = 1, .table = damper_curve(rear.strut)}}});
-  linkage.behaviour({.name = "TORSION_BEAM",
-                     .elasticity = {{.component = 4, .slope = rear.beam_bending, .table = {}},
-                                    {.component = 5, .slope = rear.beam_torsion, .table = {}},
-                                    {.component = 6, .slope = rear.beam_bending, .table = {}}},
-                     .damping = {}});
+  const auto beam_ends = ends_of_torsion_beam(mesh);
   for (const auto& side : sides) {
     const std::string s = side.name;
     const auto point = [&](const std::string& name, const Vector& place) { return linkage.point(name + s, side(place)); };
     const std::vector<std::int64_t> points{point("ARM_PIVOT_", pivot), point("ARM_SPRING_", rear.spring_seat),
                                            point("ARM_DAMPER_", rear.damper_lower), point("AXLE_REAR_", wheel_centres(spec)[2])};
-    linkage.rigid(side(rear.arm, "TRAILING_ARM"), points);
+    auto welded = points;  // the beam's end is welded to the arm all around
+    for (const int node : beam_ends[side.sign > 0.0 ? 0 : 1]) welded.push_back(node + 1);
+    linkage.rigid(side(rear.arm, "TRAILING_ARM"), welded);
     linkage.connector("PIVOT_" + s, "BUSHING", deck.node_of("AXLE_PIVOT_" + s), points[0], "ACROSS", "PIVOT_BUSH");
     linkage.connector("SPRING_REAR_" + s, "AXIAL", points[1], deck.node_of("SPRING_SEAT_REAR_" + s), "", "SPRING_REAR");
     linkage.connector("DAMPER_REAR_" + s, "AXIAL", points[2], deck.node_of("DAMPER_MOUNT_REAR_" + s), "", "DAMPER_REAR");
     linkage.connector("BEARING_REAR_" + s, "HINGE", points[3], deck.node_of("HUB_REAR_" + s), "ACROSS", "");
   }
-  linkage.connector("TORSION_BEAM", "CARDAN", deck.node_of("TRAILING_ARM_LEFT"), deck.node_of("TRAILING_ARM_RIGHT"), "",
-                    "TORSION_BEAM");
 }
 
 void write_engine(const CarSpec& spec, DeckText& deck) {

@@ -21,8 +21,8 @@ CornerWeights wheel_loads(const CarSpec& spec, const CornerWeights& sprung, doub
 std::array<Vector, 4> wheel_centres(const CarSpec& spec);
 
 /// Springs are as long without load as makes them carry `weights` at design height.
-void write_front_suspension(const CarSpec& spec, const CornerWeights& weights, DeckText& deck);
-void write_rear_suspension(const CarSpec& spec, const CornerWeights& weights, DeckText& deck);
+void write_front_suspension(const CarSpec& spec, const BodyMesh& mesh, const CornerWeights& weights, DeckText& deck);
+void write_rear_suspension(const CarSpec& spec, const BodyMesh& mesh, const CornerWeights& weights, DeckText& deck);
 void write_engine(const CarSpec& spec, DeckText& deck);
 
 }  // namespace balocco::car

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <span>
 #include <tuple>
 #include <utility>
 
@@ -65,13 +67,62 @@ BushingSpec read_bushing(SpecTable& parent, std::string_view key) {
   return bushing;
 }
 
-void read_front(SpecTable& top, FrontSpec& front) {
+/// The left half of a line that both sides share: from the middle outwards, and back to it where `closed`.
+std::vector<Vector> read_half(SpecTable& table, std::string_view key, std::size_t least, bool closed) {
+  std::vector<Vector> line;
+  for (const auto& row : table.rows(key, 3, 3)) line.push_back({row[0], row[1], row[2]});
+  if (!table.has(key)) return line;
+  if (line.size() < least) {
+    table.fault(key, fmt::format("it has {} points; this line needs {} or more", line.size(), least));
+    return line;
+  }
+  if (line.front()[1] != 0.0) table.fault(key, "the line begins beside the car's middle; give its first point y = 0");
+  if (closed && line.back()[1] != 0.0) table.fault(key, "the ring does not close; give its last point y = 0");
+  const auto inner = std::span(line).subspan(1, line.size() - (closed ? 2 : 1));
+  if (std::ranges::any_of(inner, [](const Vector& point) { return point[1] <= 0.0; }))
+    table.fault(key, "a point between the ends lies not on the left side; give it y > 0");
+  return line;
+}
+
+/// What cannot be put together as described: arms and rods that reach inwards, struts shorter than their travel.
+void check_front(SpecTable& table, const FrontSpec& front, const Vector& strut_top, double wheel_height) {
+  if (front.arm_front[0] <= front.arm_rear[0])
+    table.fault("arm_front", "it lies behind arm_rear; give the front bushing the larger x");
+  if (front.ball_joint[1] <= std::max(front.arm_front[1], front.arm_rear[1]))
+    table.fault("ball_joint", "the arm reaches inwards; give its ball joint a larger y than its bushings");
+  if (front.rod_outer[1] <= front.rod_inner[1])
+    table.fault("rod_outer", "the tie rod reaches inwards; give its outer end a larger y than its inner one");
+  const double room = length(strut_top - front.strut_lower - Vector{0.0, 0.0, wheel_height}), above = strut_top[2] - wheel_height;
+  const double travel = front.strut.stop.empty() ? 0.0 : front.strut.bump_gap + front.strut.stop.back()[0];
+  if (above <= front.strut_lower[2] || room <= travel)
+    table.fault("strut_lower", fmt::format("{:.0f} mm below [body] strut_top, the strut cannot shorten by the {:.0f} mm of its "
+                                           "bump_gap and stop; lower it, or raise strut_top",
+                                           above - front.strut_lower[2], travel));
+}
+
+void read_bar(SpecTable& parent, const std::vector<std::string>& materials, BarSpec& bar) {
+  auto table = parent.table("bar");
+  bar.line = read_half(table, "line", 3, false);
+  bar.link = read_place(table, "link");
+  bar.diameter = table.number("diameter", Bounds::positive("mm"));
+  bar.material = table.text("material", materials);
+  bar.bushing_rate = table.number("bushing_rate", Bounds::positive("N/mm"));
+  bar.link_rate = table.number("link_rate", Bounds::positive("N/mm"));
+  bar.damping_time = table.number("damping_time", Bounds::positive("ms"));
+  table.refuse_unknown();
+}
+
+void read_front(SpecTable& top, const ChassisPlace& place_of, FrontSpec& front) {
   auto table = top.table("front");
   const std::pair<const char*, Vector*> points[]{{"arm_front", &front.arm_front},   {"arm_rear", &front.arm_rear},
                                                  {"ball_joint", &front.ball_joint}, {"strut_lower", &front.strut_lower},
                                                  {"rod_inner", &front.rod_inner},   {"rod_outer", &front.rod_outer}};
   for (const auto& [key, place] : points) *place = read_place(table, key);
-  front.subframe = read_part(table, "subframe");
+  auto subframe = table.table("subframe");
+  front.subframe.line = read_half(subframe, "line", 4, true);
+  front.subframe.reach = subframe.number("reach", Bounds::positive("mm"));
+  subframe.refuse_unknown();
+  read_bar(table, place_of.materials, front.bar);
   front.arm = read_part(table, "arm");
   front.knuckle = read_part(table, "knuckle");
   front.hub = read_part(table, "hub");
@@ -80,6 +131,7 @@ void read_front(SpecTable& top, FrontSpec& front) {
   front.arm_bush = read_bushing(table, "arm_bush");
   front.top_mount = read_bushing(table, "top_mount");
   front.subframe_mount = read_bushing(table, "subframe_mount");
+  if (table.has("strut_lower")) check_front(table, front, place_of.strut_top, place_of.wheel_height);
   table.refuse_unknown();
 }
 
@@ -91,8 +143,11 @@ void read_rear(SpecTable& top, RearSpec& rear) {
   rear.wheel_hub = read_part(table, "hub");
   rear.strut = read_strut(table, "strut");
   rear.pivot_bush = read_bushing(table, "pivot_bush");
-  rear.beam_torsion = table.number("beam_torsion", Bounds::positive("N mm/rad"));
-  rear.beam_bending = table.number("beam_bending", Bounds::positive("N mm/rad"));
+  auto beam = table.table("beam");
+  rear.beam.line = read_half(beam, "line", 2, false);
+  rear.beam.leg = beam.number("leg", Bounds::positive("mm"));
+  rear.beam.opening = beam.number("opening", Bounds::between(1.0, 179.0, "degrees"));
+  beam.refuse_unknown();
   table.refuse_unknown();
 }
 
@@ -124,8 +179,8 @@ void read_drive(SpecTable& top, const std::string& obstacle, DriveSpec& drive) {
 
 }  // namespace
 
-void read_chassis(SpecTable& top, const std::string& obstacle, ChassisSpec& chassis) {
-  read_front(top, chassis.front);
+void read_chassis(SpecTable& top, const std::string& obstacle, const ChassisPlace& place, ChassisSpec& chassis) {
+  read_front(top, place, chassis.front);
   read_rear(top, chassis.rear);
   read_engine(top, chassis.engine);
   read_road(top, chassis.road);

@@ -28,13 +28,35 @@ struct BushingSpec {
   double radial = 0.0, axial = 0.0, angular = 0.0, damping_time = 0.0;
 };
 
+/// The ring of the subframe, from the middle ahead to the middle behind.
+struct SubframeSpec {
+  std::vector<Vector> line;  // of the left half, where the flanges lie; in the car
+  double reach = 0.0;        // mm around mounts, arms and rack within which its sheet carries them
+};
+
+/// A bar that resists roll, of the left half: from the middle by its bushing on the subframe to where its link hangs.
+struct BarSpec {
+  std::vector<Vector> line;  // its second point is the bushing's; in the car
+  Vector link;               // on the lower arm; relative to the wheel's centre as the arm's own points
+  double diameter = 0.0;     // mm
+  double bushing_rate = 0.0, link_rate = 0.0, damping_time = 0.0;  // N/mm along each axis, N/mm along the link; ms times stiffness
+  std::string material;
+};
+
+/// A V of one sheet, open downwards.
+struct BeamSpec {
+  std::vector<Vector> line;            // of its edge, from the middle to the left arm; in the car
+  double leg = 0.0, opening = 0.0;     // mm; degrees between the legs
+};
+
 struct FrontSpec {
   Vector arm_front, arm_rear, ball_joint, strut_lower, rod_inner, rod_outer;  // hard points; the strut's top is the body's
-  RigidPart subframe, arm, knuckle, hub;  // of the left side
+  SubframeSpec subframe;
+  BarSpec bar;
+  RigidPart arm, knuckle, hub;            // of the left side
   double rod_mass = 0.0;                  // g of the strut's rod with its bearing
   StrutSpec strut;
   BushingSpec arm_bush, top_mount, subframe_mount;
-  double bar_rate = 0.0;                  // N/mm of the anti-roll bar at its links
 };
 
 struct RearSpec {
@@ -42,7 +64,7 @@ struct RearSpec {
   RigidPart arm, wheel_hub;
   StrutSpec strut;                        // spring and damper stand apart; the stops are the damper's
   BushingSpec pivot_bush;
-  double beam_torsion = 0.0, beam_bending = 0.0;  // N mm/rad of the beam between the arms: about y, and about x and z
+  BeamSpec beam;
 };
 
 struct EngineSpec {
@@ -67,7 +89,14 @@ struct ChassisSpec {
   DriveSpec drive;
 };
 
+/// What the chassis must fit.
+struct ChassisPlace {
+  std::vector<std::string> materials;  // names of those that the description has
+  Vector strut_top;                    // of the left one
+  double wheel_height = 0.0;           // mm
+};
+
 /// `obstacle` overrides the description's; empty: as described.
-void read_chassis(SpecTable& top, const std::string& obstacle, ChassisSpec& chassis);
+void read_chassis(SpecTable& top, const std::string& obstacle, const ChassisPlace& place, ChassisSpec& chassis);
 
 }  // namespace balocco::car

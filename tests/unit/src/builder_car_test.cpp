@@ -1,12 +1,15 @@
 // The car's body: curves, sheets, welds as small systems of their own, one connected body with both sides alike.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <map>
 #include <set>
 #include <sstream>
 
 #include "builders/car/body_parts.hpp"
 #include "builders/car/car_builder.hpp"
+#include "builders/car/chassis_shells.hpp"
 #include "builders/car/suspension.hpp"
 #include "builders/car/tyre_placement.hpp"
 #include "model/diagnostics.hpp"
@@ -101,6 +104,35 @@ TEST(CarBody, IsOnePieceAtEveryMeshSize) {
   }
 }
 
+TEST(CarSubframe, IsARingOfTwoWeldedHalvesAlikeOnBothSides) {
+  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, "");
+  BodyMesh mesh;
+  add_subframe(spec, mesh);
+  EXPECT_GT(mesh.weld("SUBFRAME_UPPER", "SUBFRAME_LOWER", 1.0, spec.weld_pitch), 40);
+  EXPECT_TRUE(mesh.loose_parts().empty());
+  Inertia subframe;
+  for (const auto& part : mesh.parts()) add_part(spec, mesh, part, subframe);
+  EXPECT_NEAR(subframe.mass(), 16000.0, 2000.0);  // those of the class weigh so
+  EXPECT_NEAR(subframe.centre()[1], 0.0, 1e-9);
+  const auto& upper = mesh.parts()[0];
+  std::map<int, int> elements_of;
+  for (const auto& corners : upper.quadrilaterals)
+    for (const int node : corners) ++elements_of[node];
+  for (const auto& [node, elements] : elements_of) EXPECT_EQ(elements % 2, 0) << node;  // no end: 2 at its edges, 4 within
+}
+
+TEST(CarTorsionBeam, EndsAtBothArmsWithTheSameNodes) {
+  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, "");
+  BodyMesh mesh;
+  add_torsion_beam(spec, mesh);
+  const auto [left, right] = ends_of_torsion_beam(mesh);
+  ASSERT_EQ(left.size(), right.size());
+  for (std::size_t i = 0; i < left.size(); ++i) {
+    EXPECT_NEAR(mesh.nodes()[left[i]][1], spec.chassis.rear.beam.line.back()[1], 1e-9);
+    EXPECT_NEAR(length(mesh.nodes()[left[i]] - mirrored(mesh.nodes()[right[i]])), 0.0, 1e-9);
+  }
+}
+
 std::string fault_of(const std::string& from, const std::string& to) {
   try {
     built(changed(main_spec(), from, to));
@@ -119,7 +151,38 @@ TEST(CarSpec, FaultsNameLineAndCure) {
   EXPECT_NE(fault_of("front_track = 1385.0", "front_track = 1685.0").find("inside the wheel's centre"), std::string::npos);
   EXPECT_NE(fault_of("parts = [\"STRUT_HOUSE_TOP\", \"STRUT_HOUSE_WALL\"]", "parts = [\"STRUT_HOUSE_TOP\"]").find("no gauge"),
             std::string::npos);
+  EXPECT_NE(fault_of("line = [[240.0, 0.0,", "line = [[240.0, 5.0,").find("[front.subframe] line: the line begins beside"),
+            std::string::npos);
+  EXPECT_NE(fault_of("[-278.0, 0.0, 210.0]]", "[-278.0, 60.0, 210.0]]").find("the ring does not close"), std::string::npos);
+  EXPECT_NE(fault_of("reach = 100.0", "reach = 30.0").find("[front.subframe] reach"), std::string::npos);
   EXPECT_NE(fault_of("dash_x = -430.0", "dash_x = -930.0").find("meet nowhere"), std::string::npos);
+}
+
+TEST(CarSpec, WhatCannotBeAssembledIsToldWithLineAndCure) {
+  const auto line_of = [](const std::string& key) {
+    const auto text = main_spec();
+    return std::to_string(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find(key)), '\n') + 1);
+  };
+  const auto is_told = [&](const std::string& from, const std::string& to, const std::string& line, const std::string& words) {
+    const auto fault = fault_of(from, to);
+    EXPECT_NE(fault.find(":" + line + ": error: "), std::string::npos) << line << "\n" << fault;
+    EXPECT_NE(fault.find(words), std::string::npos) << fault;
+  };
+  is_told("arm_front = [[150.0,", "arm_front = [[-170.0,", line_of("arm_front ="), "lies behind arm_rear");
+  is_told("ball_joint = [[27.9, 612.0,", "ball_joint = [[27.9, 312.0,", line_of("ball_joint ="), "the arm reaches inwards");
+  is_told("rod_outer = [[-140.0, 590.0,", "rod_outer = [[-140.0, 290.0,", line_of("rod_outer ="), "tie rod reaches inwards");
+  is_told("strut_lower = [[-5.1, 572.0, -1.3]]", "strut_lower = [[-70.0, 500.0, 420.0]]", line_of("strut_lower ="),
+          "the strut cannot shorten");
+  is_told("place = [[-2080.0, 520.0, 320.0]]", "place = [[-2480.0, 520.0, 320.0]]", line_of("place = [[-2080.0, 520.0"),
+          "does not lie ahead of the rear wheels");
+  is_told("place = [[-83.8, 499.5, 736.6]]", "place = [[-83.8, 449.5, 736.6]]", line_of("place = [[-83.8, 499.5"),
+          "give both one place");
+  is_told("[mount.axle_pivot]", "[mount.axle_pivots]", line_of("[mount.strut_mount_front]"), "[mount] axle_pivot: missing");
+  is_told("wheel_height = 268.0", "wheel_height = 298.0", line_of("wheel_height ="), "is not on the road");
+  is_told("wheel_height = 268.0", "wheel_height = 178.0", line_of("wheel_height ="), "is on the road");
+  const auto damper = main_spec().find("damper_bump");
+  const auto curve = main_spec().substr(damper, main_spec().find('\n', damper) - damper);
+  is_told(curve, "", line_of("[front.strut]"), "[front.strut] damper_bump: missing");
 }
 
 TEST(CarSprings, CarryTheSprungWeightAtDesignHeight) {
