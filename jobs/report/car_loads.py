@@ -1,5 +1,5 @@
-"""Loads of a car under the names that an engineer reads, as CSV: forces of wheel centres and strut mounts on the car along the car's
-axes, forces and travels of springs and dampers along themselves, and how far the roads have run.
+"""Loads of a car under the names that an engineer reads, as CSV: forces of wheel centres and strut mounts on the car along its
+axes, and how far they have moved since the start; forces and travels of springs and dampers along themselves; how far the roads have run.
 
 usage: car_loads.py CAR.inp CAR.h5 LOADS.csv      the deck says along which axes its connectors measure
 """
@@ -62,7 +62,9 @@ def table(deck, results):
     for name, connector, carrier in FORCES:
         local = history_of(file, step, "element", connector, "CTF")[..., :3].reshape(-1, 3)
         force = turned(local @ axes[connector], history_of(file, step, "node", carrier, "UR"))
+        moved = history_of(file, step, "node", carrier, "U")
         columns.update({f"{name}_{c}": force[:, i] for i, c in enumerate(("Fx", "Fy", "Fz"))})
+        columns.update({f"{name}_{c}": moved[:, i] - moved[0, i] for i, c in enumerate(("Ux", "Uy", "Uz"))})
     for name in ALONG:
         for column, variable in (("force", "CTF"), ("travel", "CU")):
             columns[f"{name.lower()}_{column}"] = history_of(file, step, "element", name, variable).reshape(len(columns["time"]), -1)[:, 0]

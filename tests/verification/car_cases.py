@@ -36,7 +36,7 @@ U
 """
 
 
-def build(balocco, folder, **changes):
+def build(balocco, folder, *options, **changes):
     os.makedirs(folder, exist_ok=True)
     text = open(SPEC).read().replace('tyre = "', f'tyre = "{os.path.dirname(os.path.abspath(SPEC))}/', 1)
     for key, value in changes.items():
@@ -45,8 +45,8 @@ def build(balocco, folder, **changes):
     spec, deck = os.path.join(folder, "car.toml"), os.path.join(folder, "car.inp")
     open(spec, "w").write(text)
     drive = os.path.join(folder, "drive.inp")
-    report = subprocess.run([balocco, "car", spec, "--output", deck, "--drive", drive], check=True, stdout=subprocess.PIPE, text=True).stdout
-    return deck, report
+    command = [balocco, "car", spec, "--output", deck, "--drive", drive, *options]
+    return deck, subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout
 
 
 def body_alone(deck):
@@ -122,6 +122,32 @@ def beam_twist(balocco, ranks, folder):
     closed = shear * torsion / (2.0 * y) / (1.0 - 2.0 * np.tanh(0.5 * decay) / decay)
     print(f"twists by {moment / 0.01:.4g} N mm/rad, by closed form {closed:.4g}")
     assert abs(moment / 0.01 / closed - 1.0) < 0.02
+
+
+def kinematics(balocco, ranks, folder):
+    """The rigid car's axles moved by their wheels. Behind, the rate in bounce is that of a trailing arm: its spring stands upright, as far
+    below the pivot as it is long, so that it stays so; rubber turns with the arm; the wheel's centre lies below the pivot. In front,
+    wheels toe out and lean inwards as they rise, as they do in cars of the kind; both sides do alike."""
+    import car_kinematics
+    from balocco_results import Results
+
+    build(balocco, folder, "--kinematics", os.path.join(folder, "kinematics.inp"), fidelity='"rigid"', mesh_size="100.0")
+    run(balocco, "1", folder, "kinematics", open(os.path.join(folder, "kinematics.inp")).read())
+    results = Results(os.path.join(folder, "kinematics.h5"))
+    moved = car_kinematics.path(results, "REAR", "LEFT", ("REBOUND",))
+    order = np.argsort(moved[:, 0])
+    load = np.interp(0.0, moved[order, 0], moved[order, 4])
+    spring, rubber, arm, seat, below = 19.6, 1.0e5, 380.0, 360.0, 52.0
+    closed, rate = (spring * seat**2 + rubber - load * below) / arm**2, car_kinematics.slope(moved, 4)
+    print(f"rate at a rear wheel {rate:.3f} N/mm, closed form {closed:.3f}")
+    assert abs(rate / closed - 1.0) < 0.01
+    figures = {words: (front, rear) for words, front, rear in car_kinematics.summary(results)}
+    print(figures)
+    toe, camber, *_, bar = figures.values()
+    assert -15.0 < toe[0] < 0.0 and -35.0 < camber[0] < 0.0 and min(bar) > 5.0
+    for axle in car_kinematics.AXLES:
+        left, right = (car_kinematics.path(results, axle, side, ("REBOUND",)) for side in ("LEFT", "RIGHT"))
+        assert np.abs(left[:, :4] - right[:, :4]).max() < 1e-4 * np.abs(left[:, :4]).max()
 
 
 def equilibrium(balocco, ranks, folder):
@@ -215,4 +241,4 @@ def same_bits(balocco, folder, duration=1.0):
 
 if __name__ == "__main__":
     case, *arguments = sys.argv[1:]
-    {"beam_twist": beam_twist, "body_torsion": body_torsion, "equilibrium": equilibrium}[case](*arguments)
+    {"beam_twist": beam_twist, "kinematics": kinematics, "body_torsion": body_torsion, "equilibrium": equilibrium}[case](*arguments)
