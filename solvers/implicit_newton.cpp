@@ -88,7 +88,6 @@ void ImplicitNewton::start(const IncrementGoal& goal) {
   history_.clear();
   descends_ = false;
   discontinuous_ = 0;
-  short_steps_ = 0;
   augmentations_ = 0;
   iterations_before_ = 0;
   largest_correction_ = largest_increment_ = 0.0;
@@ -297,10 +296,6 @@ bool ImplicitNewton::search_line(const IncrementGoal& goal) {
   };
   const auto before = work();
   descends_ = descends_ || circles();
-  // Short steps one after another crawl towards a kink, where a point of contact opens or closes: a whole one gets across.
-  constexpr double short_step = 0.3;
-  constexpr int most_short_steps = 2;
-  const bool leaps = short_steps_ >= most_short_steps;
   double factor = 1.0;
   bool sound = false;
   for (int trial = 0; trial < most_trials; ++trial) {
@@ -311,7 +306,6 @@ bool ImplicitNewton::search_line(const IncrementGoal& goal) {
       factor *= 0.5;
       continue;
     }
-    if (leaps) break;
     const auto after = work();
     const double ratio = before[0] != 0.0 ? after[0] / before[0] : 0.0;
     const bool better = after[1] <= before[1];
@@ -320,7 +314,6 @@ bool ImplicitNewton::search_line(const IncrementGoal& goal) {
     // The root of the straight line through the works at the origin and here, if it lies between.
     factor *= ratio < 0.0 ? std::clamp(1.0 / (1.0 - ratio), 0.1, 0.7) : 0.5;
   }
-  short_steps_ = factor < short_step ? short_steps_ + 1 : 0;
   if (sound) measure_correction(factor);
   return sound;
 }

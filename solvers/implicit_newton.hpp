@@ -100,7 +100,6 @@ class ImplicitNewton {
   std::vector<double> history_;      // of residual norms in this increment
   bool descends_ = false;            // since the iterations circled: only corrections that lower the residual are taken
   int discontinuous_ = 0, augmentations_ = 0;
-  int short_steps_ = 0;  // along lines, one after another
   int iterations_before_ = 0;  // the last augmentation
   double contact_length_ = 0.0;
   double assembly_seconds_ = 0.0;
