@@ -32,7 +32,8 @@ namespace {
 enum ExitStatus { completed = 0, different = 1, bad_input = 2, analysis_failed = 3, stopped = 4, system_trouble = 5 };
 
 struct Command {
-  std::string deck, output = ".", last_step, spec, model_file, drive_file, kinematics_file, obstacle, picture, results;
+  std::string deck, output = ".", last_step, spec, model_file, drive_file, kinematics_file, picture, results;
+  CarChoices car;
   std::string other_results;
   double relative = 0.0;
   std::vector<std::string> ignored_keywords;
@@ -209,7 +210,7 @@ int build_tyre_deck(const Command& command) {
 int build_car_deck(const Command& command) {
   const auto text = file_loader()(command.spec);
   if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of a car's description (TOML)", command.spec));
-  const auto car = build_car(*text, command.spec, file_loader(), command.obstacle);
+  const auto car = build_car(*text, command.spec, file_loader(), command.car);
   const auto model = write_deck(car.tyres) + car.car;
   write_text(command.model_file, model + car.equilibrium);
   if (!command.drive_file.empty()) write_text(command.drive_file, model + car.drive);
@@ -272,10 +273,11 @@ int dispatch(int argc, char** argv) {
   car_command->add_option("spec", command.spec, "Car description (TOML)")->required();
   car_command->add_option("--output", command.model_file, "Deck of the equilibrium to write")->required();
   car_command->add_option("--drive", command.drive_file, "Deck of the drive to write, to be run with --import of the equilibrium");
-
   car_command->add_option("--kinematics", command.kinematics_file, "Deck to write that moves the axles without tyres");
-  car_command->add_option("--obstacle", command.obstacle, "Obstacle of the drive, instead of the description's: comfort or pothole")
+  car_command->add_option("--obstacle", command.car.obstacle, "Obstacle of the drive, instead of the description's: comfort or pothole")
       ->check(CLI::IsMember({"comfort", "pothole"}));
+  car_command->add_option("--fidelity", command.car.fidelity, "What deforms, instead of the description's: complete, semi-flexible or rigid")
+      ->check(CLI::IsMember({"complete", "semi-flexible", "rigid"}));
 
   auto* info_command = app.add_subcommand("info", "Show what a result file holds");
   info_command->add_option("results", command.results, "JOB.h5")->required();

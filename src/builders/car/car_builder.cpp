@@ -89,8 +89,8 @@ std::string beside(const std::string& file_name, const std::string& path) {
 
 }  // namespace
 
-CarDeck build_car(const std::string& toml_text, const std::string& file_name, const FileText& load, const std::string& obstacle) {
-  const auto spec = read_car_spec(toml_text, file_name, obstacle);
+CarDeck build_car(const std::string& toml_text, const std::string& file_name, const FileText& load, const CarChoices& choices) {
+  const auto spec = read_car_spec(toml_text, file_name, choices);
   std::vector<WeldLine> welds;
   const auto mesh = make_body(spec, welds);
   const auto tyre_file = beside(file_name, spec.tyre);

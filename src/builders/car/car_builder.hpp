@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "builders/car/car_choices.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -20,10 +21,9 @@ struct CarDeck {
 /// Text of a file, if there is one.
 using FileText = std::function<std::optional<std::string>(const std::string& path)>;
 
-/// The car that `toml_text` describes, for a drive over the obstacle that it names, or over `obstacle`. `file_name` is named in
-/// messages; `load` reads the tyre's description. Units mm, ms, g, N, MPa.
+/// The car that `toml_text` describes, and its drive. `file_name` is named in messages; `load` reads the tyre's description. Units mm, ms,
+/// g, N, MPa.
 /// @throws InputError with every fault found: "FILE:LINE: error: [table] key: what is wrong; how to mend it".
-CarDeck build_car(const std::string& toml_text, const std::string& file_name, const FileText& load,
-                  const std::string& obstacle = "");
+CarDeck build_car(const std::string& toml_text, const std::string& file_name, const FileText& load, const CarChoices& choices = {});
 
 }  // namespace balocco

@@ -226,7 +226,7 @@ const std::vector<std::string> member_names{
     "cross_member", "cowl",         "front_frame", "bumper",     "dash_beam",  "roof_header", "roof_bow",       "waist_rail",
     "subframe"};
 
-CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const std::string& obstacle) {
+CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const CarChoices& choices) {
   const auto file = parse_spec(toml_text, file_name);
   SpecFaults faults(file_name);
   SpecTable top(&file, "", faults);
@@ -234,6 +234,7 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   spec.file_name = file_name;
   spec.title = top.text("title", {}, "Car");
   spec.fidelity = top.text("fidelity", {"complete", "semi-flexible", "rigid"});
+  if (!choices.fidelity.empty()) spec.fidelity = choices.fidelity;
   spec.tyre = top.text("tyre", {});
   spec.mesh_size = top.number("mesh_size", Bounds::between(3.0, 200.0, "mm"));
   spec.weld_pitch = top.number("weld_pitch", Bounds::positive("mm"));
@@ -246,7 +247,7 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   spec.mounts = read_mounts(top, "mount", false);
   ChassisPlace place{.materials = {}, .strut_top = spec.body.strut_top, .wheel_height = spec.profile.wheel_height};
   for (const auto& material : spec.materials) place.materials.push_back(material.name);
-  read_chassis(top, obstacle, place, spec.chassis);
+  read_chassis(top, choices.obstacle, place, spec.chassis);
   check_mounts(top, spec);
   top.refuse_unknown();
   faults.throw_if_any();

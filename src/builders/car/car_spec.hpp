@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "builders/car/car_choices.hpp"
 #include "builders/car/sheet.hpp"
 #include "builders/car/suspension_spec.hpp"
 
@@ -92,7 +93,7 @@ struct CarSpec {
 /// Members that every body has, in the order of the reader's messages.
 extern const std::vector<std::string> member_names;
 
-/// `obstacle` overrides the description's; empty: as described. @throws InputError with every fault found.
-CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const std::string& obstacle);
+/// @throws InputError with every fault found.
+CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const CarChoices& choices = {});
 
 }  // namespace balocco::car

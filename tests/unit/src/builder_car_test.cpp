@@ -105,7 +105,7 @@ TEST(CarBody, IsOnePieceAtEveryMeshSize) {
 }
 
 TEST(CarSubframe, IsARingOfTwoWeldedHalvesAlikeOnBothSides) {
-  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, "");
+  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC);
   BodyMesh mesh;
   add_subframe(spec, mesh);
   EXPECT_GT(mesh.weld("SUBFRAME_UPPER", "SUBFRAME_LOWER", 1.0, spec.weld_pitch), 40);
@@ -122,7 +122,7 @@ TEST(CarSubframe, IsARingOfTwoWeldedHalvesAlikeOnBothSides) {
 }
 
 TEST(CarTorsionBeam, EndsAtBothArmsWithTheSameNodes) {
-  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, "");
+  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC);
   BodyMesh mesh;
   add_torsion_beam(spec, mesh);
   const auto [left, right] = ends_of_torsion_beam(mesh);
@@ -186,7 +186,7 @@ TEST(CarSpec, WhatCannotBeAssembledIsToldWithLineAndCure) {
 }
 
 TEST(CarSprings, CarryTheSprungWeightAtDesignHeight) {
-  const auto spec = read_car_spec(main_spec(), "car.toml", "");
+  const auto spec = read_car_spec(main_spec(), "car.toml");
   BodyMesh mesh;
   const auto sprung = sprung_mass(spec, mesh);
   const auto weights = corner_weights(spec, sprung);
@@ -219,6 +219,19 @@ TEST(CarTyres, AreFourAlikeAtTheirWheels) {
   }
 }
 
+TEST(CarBuilder, SaysByOneWordWhatDeforms) {
+  const auto of = [](const char* fidelity) { return build_car(main_spec(), BALOCCO_CAR_SPEC, load, {.obstacle = "", .fidelity = fidelity}).car; };
+  EXPECT_EQ(of("complete").find("*ELSET, ELSET=RIGID_PARTS"), std::string::npos);
+  const auto rigid = of("rigid"), some = of("semi-flexible");
+  const auto list = [](const std::string& deck) {
+    const auto begin = deck.find("*ELSET, ELSET=RIGID_PARTS");
+    return deck.substr(begin, deck.find("*RIGID BODY", begin) - begin);
+  };
+  EXPECT_NE(list(rigid).find("\nSTRUT_HOUSE_TOP_LEFT\n"), std::string::npos);
+  EXPECT_EQ(list(some).find("\nSTRUT_HOUSE_TOP_LEFT\n"), std::string::npos);
+  EXPECT_NE(list(some).find("\nROOF\n"), std::string::npos);
+}
+
 TEST(CarBuilder, APotholeLiesBelowTheLeftWheelsAloneAndTheObstacleBelowBothSides) {
   const auto extremes = [](const CarDeck& deck, std::size_t surface) {
     std::array<double, 2> found{};  // lowest, highest
@@ -231,7 +244,7 @@ TEST(CarBuilder, APotholeLiesBelowTheLeftWheelsAloneAndTheObstacleBelowBothSides
   const auto roads = [](const CarDeck& deck) {
     return std::pair(deck.tyres.contact_pairs[0].master, deck.tyres.contact_pairs[2].master);  // left, right
   };
-  const auto comfort = built(main_spec()), hole = build_car(main_spec(), BALOCCO_CAR_SPEC, load, "pothole");
+  const auto comfort = built(main_spec()), hole = build_car(main_spec(), BALOCCO_CAR_SPEC, load, {.obstacle = "pothole", .fidelity = ""});
   const auto [left, right] = roads(comfort);
   EXPECT_EQ(extremes(comfort, left), (std::array<double, 2>{0.0, 25.0}));
   EXPECT_EQ(extremes(comfort, right), (std::array<double, 2>{0.0, 25.0}));

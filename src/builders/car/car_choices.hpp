@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace balocco {
+
+/// What overrides a car's description; empty: as described.
+struct CarChoices {
+  std::string obstacle;  // of the drive: comfort, pothole
+  std::string fidelity;  // complete, semi-flexible, rigid
+};
+
+}  // namespace balocco
