@@ -221,10 +221,10 @@ TEST(CarTyres, AreFourAlikeAtTheirWheels) {
 
 TEST(CarBuilder, SaysByOneWordWhatDeforms) {
   const auto of = [](const char* fidelity) { return build_car(main_spec(), BALOCCO_CAR_SPEC, load, {.obstacle = "", .fidelity = fidelity}).car; };
-  EXPECT_EQ(of("complete").find("*ELSET, ELSET=RIGID_PARTS"), std::string::npos);
+  EXPECT_EQ(of("complete").find("*ELSET, ELSET=RIGID_BODY"), std::string::npos);
   const auto rigid = of("rigid"), some = of("semi-flexible");
   const auto list = [](const std::string& deck) {
-    const auto begin = deck.find("*ELSET, ELSET=RIGID_PARTS");
+    const auto begin = deck.find("*ELSET, ELSET=RIGID_BODY");
     return deck.substr(begin, deck.find("*RIGID BODY", begin) - begin);
   };
   EXPECT_NE(list(rigid).find("\nSTRUT_HOUSE_TOP_LEFT\n"), std::string::npos);
