@@ -8,10 +8,19 @@
 
 namespace balocco {
 
+namespace {
+
+/// The C3D20R of CalculiX finds its mass, too, at the eight points of its stiffness; Abaqus's at 27.
+struct ReducedMass : SerendipityShape<2> {
+  static constexpr auto mass_stations() { return stations(); }
+};
+
+}  // namespace
+
 ConsistentMass::ConsistentMass(const Model& model, const ElementGroup& group)
     : model_(model), group_(group), shape_products_(model.elements[group.table()].type->shape_products) {
-  // The plain brick of textbooks and of CalculiX has the consistent mass, too.
-  if (model.sections[group.section()].pointwise_dilatation) shape_products_ = shape_products<TrilinearValues>;
+  if (model.sections[group.section()].pointwise_dilatation)
+    shape_products_ = group.nodes_per_element() == 8 ? shape_products<TrilinearValues> : shape_products<ReducedMass>;
   if (!exists()) return;
   const auto nodes = static_cast<std::size_t>(group.nodes_per_element());
   nodes_.resize(nodes);

@@ -84,10 +84,10 @@ void assign_section(Builder& builder, const Block& block, Section section, const
     if (table.type->section != section.kind) {
       return builder.error(block, block.location, misfit(builder.model, block, element, elements, section.kind));
     }
-    if (section.pointwise_dilatation && table.type->name != "C3D8") {
+    if (section.pointwise_dilatation && table.type->name != "C3D8" && table.type->name != "C3D20R") {
       return builder.error(block, block.location,
-                           fmt::format("DILATATION=POINTWISE of its section controls chooses how a C3D8 is integrated, but element {} "
-                                       "is a {}; give the C3D8 a section of their own",
+                           fmt::format("DILATATION=POINTWISE of its section controls chooses how a C3D8 or C3D20R is integrated, but "
+                                       "element {} is a {}; give those a section of their own",
                                        builder.model.element_name(element), table.type->name));
     }
     if (owner >= 0) {

@@ -8,7 +8,7 @@ foreach(case truss beamnldye beamnldype)
   set_tests_properties(ccx_suite_${case} PROPERTIES LABELS verification TIMEOUT 120 SKIP_RETURN_CODE 77)
 endforeach()
 foreach(deck achteld achtelg beam10p beam20p beam8f beamd3 beamdelay beamhf beamnld beamnlp beampo1 beampo3 beampo6 beamprot beamwrite
-        beamnldyp dashpot5 dashpot1 beam8b coupling10 mass1 spring2 spring7 beam8p_mpc beamptied1 beamptied2 beamrb2 coupling2 spring3 beamnlmpc
+        beamnldyp beamdynamic2 dashpot5 dashpot1 beam8b coupling10 mass1 spring2 spring7 beam8p_mpc beamptied1 beamptied2 beamrb2 coupling2 spring3 beamnlmpc
         beamp2rotate beamprb dyncube dyncubeexp)
   add_test(NAME ccx_suite_${deck}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/ccx_table.py $<TARGET_FILE:balocco> ${CMAKE_SOURCE_DIR}/../shared
