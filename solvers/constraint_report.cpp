@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "model/diagnostics.hpp"
 
@@ -21,6 +22,28 @@ std::size_t constraint_of(const Analysis& analysis, std::int32_t row) {
 std::string where(const Analysis& analysis, std::size_t constraint) {
   const auto& definition = analysis.model.constraints[constraint];
   return analysis.model.where({definition.file, definition.line});
+}
+
+/// Where displacements are linear, so are the gaps: those of the reference and what its gradient makes of displacements and rotations.
+void find_gaps(const Analysis& analysis, std::int32_t index, std::vector<double>& gaps) {
+  const auto& constraint = *analysis.constraints[index];
+  std::vector<NodePlace> places;
+  analysis.find_places(index, places);
+  gaps.assign(static_cast<std::size_t>(constraint.rows()), 0.0);
+  if (!analysis.current.linear || constraint.is_linear()) return constraint.gaps(places, gaps);
+  std::vector<double> motion;  // of the columns
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Vector3<double> reference{analysis.model.nodes.coordinates[constraint.nodes()[i]]};
+    const auto displacement = places[i].position - reference;
+    motion.insert(motion.end(), displacement.component.begin(), displacement.component.end());
+    motion.insert(motion.end(), places[i].turn.component.begin(), places[i].turn.component.end());
+    places[i] = {.position = reference};
+  }
+  std::vector<double> gradient(gaps.size() * motion.size());
+  constraint.gaps(places, gaps);
+  constraint.gradient(places, gradient);
+  for (std::size_t row = 0; row < gaps.size(); ++row)
+    gaps[row] += std::inner_product(motion.begin(), motion.end(), gradient.begin() + static_cast<std::ptrdiff_t>(row * motion.size()), 0.0);
 }
 
 }  // namespace
@@ -51,19 +74,16 @@ void log_dependent_constraints(const Analysis& analysis, std::span<const std::in
 }
 
 void refuse_contradictions(const Analysis& analysis, std::span<const std::int32_t> rows, double model_size) {
-  std::vector<NodePlace> places;
   std::vector<double> gaps;
   analysis.communicator.together([&] {
     for (const auto row : rows) {
       const auto index = constraint_of(analysis, row);
       const auto& constraint = *analysis.constraints[index];
-      const bool linear_motion = analysis.current.linear && !constraint.is_linear();
-      if (linear_motion || !std::ranges::binary_search(analysis.local_constraints, static_cast<std::int32_t>(index))) continue;
-      analysis.find_places(static_cast<std::int32_t>(index), places);
-      gaps.assign(constraint.rows(), 0.0);
-      constraint.gaps(places, gaps);
+      if (!std::ranges::binary_search(analysis.local_constraints, static_cast<std::int32_t>(index))) continue;
+      find_gaps(analysis, static_cast<std::int32_t>(index), gaps);
       const double gap = gaps[row - analysis.first_constraint_row[index]];
-      if (std::abs(gap) <= largest_contradiction * model_size) continue;
+      const bool slack = constraint.is_one_sided() && gap < 0.0;
+      if (slack || std::abs(gap) <= largest_contradiction * model_size) continue;
       throw AnalysisError(fmt::format(
           "{}: error: {}: cannot hold together with the other constraints and boundary conditions on its nodes (node {} and others): "
           "it is off by {:.3g}; remove one of them",

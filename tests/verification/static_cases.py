@@ -315,6 +315,27 @@ def mechanism(runner):
         print(reason[0])
 
 
+def contradiction(runner):
+    """A face coupled to two nodes that are held apart: the second coupling is refused, in linear steps as in others."""
+    for ranks, nlgeom in ((1, ""), (2, ""), (1, ", NLGEOM")):
+        deck = brick((1, 1, 1), (1.0, 1.0, 1.0))
+        deck.sets["ROOT"] = deck.where(lambda x, y, z: x < 1e-9)
+        deck.sets["FACE"] = deck.where(lambda x, y, z: x > 1.0 - 1e-9)
+        deck.add_node(101, 1.5, 0.5, 0.5)
+        deck.add_node(102, 2.0, 0.5, 0.5)
+        deck.add(ELASTIC.format(young=1000.0, poisson=0.3))
+        deck.add("*SURFACE, TYPE=NODE, NAME=NODES\nFACE")
+        for node in (101, 102):
+            deck.add("*COUPLING, CONSTRAINT NAME=C%d, REF NODE=%d, SURFACE=NODES\n*KINEMATIC" % (node, node))
+        deck.add("*STEP%s\n*STATIC\n1., 1.\n*BOUNDARY\nROOT, 1, 3\n101, 1, 1, 0.1\n101, 2, 6\n102, 1, 6\n*END STEP" % nlgeom)
+        done, _ = runner.launch("contradiction", deck, ranks)
+        said = done.stdout + done.stderr
+        assert done.returncode == 3, "exit status %d\n%s" % (done.returncode, said)
+        reason = [line for line in said.splitlines() if line.startswith("BALOCCO FAILED")]
+        assert len(reason) == 1 and "*COUPLING: cannot hold together with the other constraints" in reason[0], said
+        print(reason[0])
+
+
 CASES = {
     "patch_c3d8r": lambda runner: patch(runner, "C3D8R"),
     "patch_c3d8": lambda runner: patch(runner, "C3D8"),
@@ -331,6 +352,7 @@ CASES = {
     "ring": ring,
     "flat_sheet": flat_sheet,
     "mechanism": mechanism,
+    "contradiction": contradiction,
 }
 
 if __name__ == "__main__":
