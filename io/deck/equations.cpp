@@ -172,6 +172,15 @@ void read_mpc(Builder& builder, const Block& block) {
       type == "DIST" ? read_rope(builder, row, nodes) : read_alignment(builder, block, row, std::move(nodes), type == "PLANE");
       continue;
     }
+    if (type == "REVOLUTE" || type == "UNIVERSAL") {
+      row.error(fmt::format(
+          "{} is a connector here: put a CONN3D2 between the nodes, with *CONNECTOR SECTION {}, and an *ORIENTATION "
+          "whose {}",
+          type,
+          type == "REVOLUTE" ? "REVOLUTE (HINGE with the displacements)" : "UNIVERSAL (UJOINT with the displacements)",
+          type == "REVOLUTE" ? "first direction is the axis" : "first and third directions are the axes"));
+      continue;
+    }
     if (type != "BEAM" && type != "PIN" && type != "TIE" && type != "LINK") {
       row.error(fmt::format("type {} is not known; there are BEAM, PIN, TIE, LINK, PLANE, STRAIGHT and DIST; joints are connectors (*CONNECTOR SECTION)", row.text(0)));
       continue;
