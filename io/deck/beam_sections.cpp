@@ -152,7 +152,7 @@ const RegisterKeyword section{{"BEAM SECTION",
                                Phase::sections,
                                Place::model,
                                {required(name("ELSET")), required(name("MATERIAL")),
-                                required(choice("SECTION", {"RECT", "CIRC", "PIPE", "BOX", "I"}))},
+                                required(choice("SECTION", {"RECT", "CIRC", "PIPE", "BOX", "I"})), foreign("TEMPERATURE")},
                                read_beam_section}};
 const RegisterKeyword general{{"BEAM GENERAL SECTION",
                                Phase::sections,

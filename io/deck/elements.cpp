@@ -126,6 +126,8 @@ class ElementReader {
         const auto number = parse_integer(fields_[field]);
         if (!first && is_ground(fields_[field])) {
           nodes_.push_back(ground);
+        } else if (!first && is_of_instance(fields_[field])) {
+          if (good) good = builder_.nodes_of(fields_[field], block_, location, nodes_);
         } else if (!number) {
           if (good) tell_bad_field(data, field);
           good = false;
@@ -145,6 +147,12 @@ class ElementReader {
   /// A connector's node that is left empty, or 0.
   bool is_ground(std::string_view field) const {
     return type_.section == Section::Kind::connector && static_cast<int>(nodes_.size()) < type_.nodes && (field.empty() || field == "0");
+  }
+
+  /// A node of an instance, as the assembly names it: INSTANCE.5.
+  static bool is_of_instance(std::string_view field) {
+    const auto dot = field.rfind('.');
+    return dot != std::string_view::npos && dot > 0 && parse_integer(field.substr(dot + 1)) && !parse_real(field);
   }
 
   /// The ground is where the other node is.

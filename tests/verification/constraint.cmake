@@ -4,5 +4,5 @@ verification_cases(constraint 120 masses_on_links falling_chain four_bar univers
 verification_cases(connector 120 strut damped_strut struck_pendulum braked_rotor rubbing_slider slider_crank on_the_ground driven_hinge)
 verification_cases(rigid_part 120 carousel thrown_plate carried_inertia plates_made_rigid)
 verification_cases(import 120 driving_from_an_equilibrium importing_parts importing_the_mesh bodies_keep_their_nodes)
-verification_cases(linkage 120 heavy_top blown_flaps)
+verification_cases(linkage 120 heavy_top blown_flaps joined_instances)
 verification_cases(weld 120 closed_section tied_sheets)

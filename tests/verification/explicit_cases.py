@@ -37,6 +37,10 @@ class Job:
             history = file[f"step_{step}/history/{group}"]
             return np.array(history["time"]), np.array(history[variable])
 
+    def groups(self, step=1):
+        with h5py.File(self.folder / f"{self.name}.h5") as file:
+            return list(file[f"step_{step}/history"])
+
     def frame(self, variable, frame, step=1):
         """Nodal values of a frame; -1: the last."""
         with h5py.File(self.folder / f"{self.name}.h5") as file:

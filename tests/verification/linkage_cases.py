@@ -5,6 +5,7 @@ import re
 
 import numpy as np
 
+from connector_cases import last
 from constraint_cases import G, explicit_step, history, integrate
 from explicit_cases import check, check_energy, run_case
 
@@ -146,5 +147,69 @@ def blown_flaps(run):
         check("order of convergence", float(np.median(found)), 2.0, 0.25)
 
 
+def joined_instances(run):
+    """Two instances of a bar that a connector of the assembly joins, as Abaqus/CAE writes it: they stretch as one bar."""
+    deck = """*Heading
+*Part, name=Bar
+*Node
+      1,           0.,           0.,           0.
+      2,          10.,           0.,           0.
+      3,          20.,           0.,           0.
+*Element, type=B31
+1, 1, 2
+2, 2, 3
+*Elset, elset=Set-1
+ 1, 2
+*Beam Section, elset=Set-1, material=Steel, temperature=GRADIENTS, section=CIRC
+1.
+0.,0.,-1.
+*End Part
+*Assembly, name=Assembly
+*Instance, name=Bar-1, part=Bar
+*End Instance
+*Instance, name=Bar-2, part=Bar
+         20.,           0.,           0.
+*End Instance
+*Element, type=CONN3D2
+1, Bar-1.3, Bar-2.1
+*Connector Section, elset=Wire-1-Set-1
+Hinge,
+Datum-csys-1,
+*Elset, elset=Wire-1-Set-1
+ 1,
+*Orientation, name=Datum-csys-1
+ 0., 0., 1., 1., 0., 0.
+1, 0.
+*Nset, nset=fix, instance=Bar-1
+ 1,
+*Nset, nset=tip, instance=Bar-2
+ 3,
+*End Assembly
+*Material, name=Steel
+*Elastic
+210000., 0.3
+*Boundary
+fix, ENCASTRE
+tip, 2, 5
+*Step, name=Step-1, nlgeom=NO
+*Static
+1., 1., 1e-05, 1.
+*Cload
+tip, 1, 100.
+*Output, history, frequency=1
+*Node Output, nset=tip
+U1
+*Element Output, elset=Wire-1-Set-1
+CTF
+*End Step
+"""
+    for ranks in (1, 2):
+        job = run(deck, ranks)
+        groups = job.groups()
+        (tip,), (joint,) = ([name for name in groups if name.startswith(kind)] for kind in ("node_", "element_"))
+        check("stretch of both bars", job.history(tip, "U1")[1][-1], 100.0 * 40.0 / (210000.0 * math.pi), 1e-9)
+        check("force of the hinge", last(job, "CTF", group=joint)[1], 100.0, 1e-9)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (heavy_top, blown_flaps)})
+    run_case({case.__name__: case for case in (heavy_top, blown_flaps, joined_instances)})
