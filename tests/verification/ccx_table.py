@@ -31,7 +31,7 @@ NOTES = {
     "resstress1": "linear steps here have the stress stiffness of an initial stress, CalculiX's have not",
     "beamplane": "CalculiX takes four increments and prints each, here one is enough; the end agrees to 8.4e-5",
     "beamnldy": "a load that is there at once, in one increment: here the first acceleration is that of the consistent mass; the same deck "
-                "with the load rising within 1e-12 agrees to 1e-8",
+                "with the load rising within 1e-12 agrees to the digits printed",
     "cube2": "displacements agree to 1.0e-6; cubes in free fall have no stress, what is printed is rounding",
     "spring5": "one row where the spring is slack again, 7e-7 of the amplitude, is off by 4e-9 of it",
     "dist": "CalculiX lets the rope of 7.2 be 7.2025 at 0.6 before it pulls (1.2e-2, then up to 1.7e-3), and leaves 4.5e-8 where the load is gone",
