@@ -22,7 +22,12 @@ def last(file, name, variable):
 
 
 def ride(file):
-    """(frequency in Hz, what moves) of modes in which the body goes up and down on its springs, or wheels do under it."""
+    """(frequency in Hz, what moves) of each mode of the ride."""
+    return [(frequency, kind) for frequency, kind, _ in ride_modes(file)]
+
+
+def ride_modes(file):
+    """(frequency in Hz, what moves, its group) of modes in which the body goes up and down on its springs, or wheels do under it."""
     rows = lambda names: [file[f"mesh/set/node/{name}"][0] for name in names]
     hubs, mounts = rows("HUB_" + wheel for wheel in WHEELS), rows(MOUNTS)
     modes = [group[name] for group in file.values() for name in group if name.startswith("mode_")]
@@ -39,17 +44,20 @@ def ride(file):
         elif size > 0.5 and np.abs(body).max() < 0.1 * size:
             kind = "hop: " + ", ".join("%s %+.2f" % (wheel.lower(), value) for wheel, value in zip(WHEELS, wheels) if abs(value) > 0.2)
         if kind:
-            found.append((1000.0 * mode.attrs["frequency"], kind))
+            found.append((1000.0 * mode.attrs["frequency"], kind, mode))
     return found
+
+
+def wheel_loads(file):
+    """What the road carries below each wheel, N."""
+    history = last_step(file)["history"]
+    pair = lambda wheel: next(history[name] for name in history if f"TREAD_{wheel}" in name)
+    return {wheel: abs(float(pair(wheel)["CFN"][-1][2])) for wheel in WHEELS}
 
 
 def main():
     file = h5py.File(sys.argv[1])
-    history = last_step(file)["history"]
-    loads = {}
-    for wheel in WHEELS:
-        pair = next(history[name] for name in history if f"TREAD_{wheel}" in name)
-        loads[wheel] = abs(float(pair["CFN"][-1][2]))
+    loads = wheel_loads(file)
     for wheel in WHEELS:
         moved = last(file, "HUB_" + wheel, "U")
         print(f"wheel {wheel:<12} carries {loads[wheel]:8.1f} N; its centre moved {moved[0]:+7.2f}, {moved[1]:+7.2f}, {moved[2]:+7.2f} mm")
