@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # Runs a named job on two ranks and writes its report.
-# usage: bash jobs/run.sh [NAME] [ranks]      NAME: a folder of jobs/ with a job.sh (default: tyre, the main job)
+# usage: bash jobs/run.sh [NAME] [ranks]      NAME: a folder of jobs/ with a job.sh (default: car, the main job)
 set -euo pipefail
 
-name=${1:-tyre}
+name=${1:-car}
 ranks=${2:-2}
 folder=$(cd "$(dirname "$0")" && pwd)
 if [ ! -f "$folder/$name/job.sh" ]; then
