@@ -180,8 +180,11 @@ void refuse_other_model(const Hdf5File& file, const std::string& path, const Mod
     if (file.has_attribute("/", attribute) && file.text_attribute("/", attribute) == digest) continue;
     throw InputError(
         fmt::format("{}: error: checkpoint of another model than {}: its {} differ; go on from a job with the same model, "
-                    "whose steps alone are others",
-                    path, model.files.empty() ? model.name : model.files.front(), part));
+                    "whose steps alone are others{}",
+                    path, model.files.empty() ? model.name : model.files.front(), part,
+                    part == "constraints" ? " (nodes at the ends of rigid arms are part of a rigid body where no step of a job holds, attaches or "
+                                            "releases them: let both jobs do so, or neither)"
+                                          : ""));
   }
 }
 
@@ -307,7 +310,7 @@ std::string mass_scale_path(const std::string& element_type) { return "mass_scal
 
 bool has_mass_scales(const Hdf5File& file, const Model& model) {
   return std::ranges::any_of(model.elements,
-                             [&](const auto& table) { return file.exists("/" + mass_scale_path(table.type->name)); });
+                             [&](const auto& table) { return file.exists(fmt::format("/{}", mass_scale_path(table.type->name))); });
 }
 
 std::string history_path(const std::string& element_type) { return "history_" + element_type; }

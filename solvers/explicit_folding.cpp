@@ -54,7 +54,8 @@ Corners folded_corners(const Analysis& analysis, std::span<const std::int32_t> n
   for (int corner = 0; corner < static_cast<int>(corners.size()); ++corner) {
     volume[corner] = volume_at(corner, corners[corner], 0.0, now);
     mean += volume[corner] / static_cast<double>(corners.size());
-    if (volume[corner] < (deepest < 0 ? 0.0 : volume[deepest]) && volume_at(corner, corners[corner], flat, reference) > 0.0) deepest = corner;
+    const bool deeper = deepest < 0 ? volume[corner] <= 0.0 : volume[corner] < volume[deepest];
+    if (deeper && volume_at(corner, corners[corner], flat, reference) > 0.0) deepest = corner;
   }
   if (deepest < 0) return {};
   return {deepest, volume[deepest] < -deepest_fold * mean ? deepest : -1};

@@ -126,6 +126,7 @@ void ExplicitStep::watch_folding() {
   tell_first(told_folded_, folding.folded, [&](std::int64_t element) {
     return fmt::format("{}: warning: element {} is folded at a corner: stresses there are poor; use smaller elements there", when, element);
   });
+  if (finished()) return;
   tell_first(told_inside_out_, folding.inside_out, [&](std::int64_t element) {
     return fmt::format(
         "{}: warning: element {} has turned inside out at a corner: it is distorted beyond what its mesh can follow, and where it does not "

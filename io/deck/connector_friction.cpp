@@ -70,7 +70,7 @@ const RegisterKeyword derived{
 const RegisterKeyword friction{{"CONNECTOR FRICTION",
                                 Phase::definitions,
                                 Place::model,
-                                {integer("COMPONENT"), name("CONTACT FORCE"), flag("PREDEFINED")},
+                                {required(integer("COMPONENT")), name("CONTACT FORCE"), flag("PREDEFINED")},
                                 read_friction,
                                 "CONNECTOR BEHAVIOR"}};
 

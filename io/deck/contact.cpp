@@ -51,6 +51,7 @@ void read_friction(Builder& builder, const Block& block) {
       builder.error(block, block.location, "connectors stick exactly, without an elastic slip; remove the parameter");
     return;
   }
+  if (builder.model.interactions.empty()) return;  // the *CONNECTOR FRICTION above it is wrong, which has been told
   current(builder).friction = coefficient;
   if (block.has("SLIP TOLERANCE")) {
     const double tolerance = block.real("SLIP TOLERANCE", 0.0);

@@ -152,6 +152,10 @@ void add_connectors(Builder& builder, const Block& block, Fastener& fastener) {
                            fmt::format("element {} of {} is no connector; fasteners are made of CONN3D2",
                                        builder.model.element_name(element), block.value("ELSET")));
     const auto* nodes = &table.connectivity[2 * static_cast<std::size_t>(element.row)];
+    if (builder.ground_nodes.contains(nodes[0]) || builder.ground_nodes.contains(nodes[1]))
+      return builder.error(block, block.location,
+                           fmt::format("element {} of {} joins the ground, which is no sheet; give it two nodes",
+                                       builder.model.element_name(element), block.value("ELSET")));
     fastener.add_connector(nodes[0], nodes[1]);
   }
 }

@@ -38,14 +38,20 @@ bool spreads(const Model& model, const std::vector<std::int32_t>& nodes) {
   });
 }
 
-/// Whether an end of a joint moves as one with the other: it keeps its place in the other's frame, and its axes if it turns.
-bool is_arm(const Joint& joint, int end, const std::vector<bool>& turns) {
+const Joint* joint_of(const ConstraintDefinition& definition) { return std::get_if<Joint>(&definition.kind); }
+bool is_connector(const ConstraintDefinition& definition) { return definition.element.table >= 0; }
+
+/// Whether an end of a joint moves as one with the other, which a body carries: it keeps its place in the other's frame, and its axes if it
+/// turns. What a body carries turns with it: *MPC BEAM on such a node holds rotations, even where no element turns the node.
+bool is_arm(const ConstraintDefinition& definition, int end, const std::vector<bool>& turns) {
+  const auto& joint = *joint_of(definition);
   const auto holds_all = [&](Joint::Part part) {
     return std::ranges::any_of(joint.pieces, [&](const Joint::Piece& piece) {
       return piece.part == part && piece.along == std::array{true, true, true};
     });
   };
-  return holds_all(Joint::Part::offset) && (holds_all(Joint::Part::align) || (end == 1 && !turns[joint.nodes[1]]));
+  if (!holds_all(Joint::Part::offset)) return false;
+  return holds_all(Joint::Part::align) || (end == 1 ? !turns[joint.nodes[1]] : definition.keyword == "*MPC");
 }
 
 /// Nodes whose motion something beside constraints says: boundary conditions, bodies that carry them at some time.
@@ -64,13 +70,45 @@ std::vector<bool> moved_otherwise(const Model& model) {
   return moved;
 }
 
-const Joint* joint_of(const ConstraintDefinition& definition) { return std::get_if<Joint>(&definition.kind); }
-bool is_connector(const ConstraintDefinition& definition) { return definition.element.table >= 0; }
+/// Takes joints out, but those of connectors, between nodes of one body; what follows others by their rows goes on doing so.
+std::vector<ConstraintDefinition> take_out_implied(Model& model, const std::vector<std::int32_t>& body_of) {
+  std::vector<ConstraintDefinition> kept, dropped;
+  std::vector<std::int32_t> row;
+  for (auto& definition : model.constraints) {
+    row.push_back(static_cast<std::int32_t>(kept.size()));
+    const auto* joint = joint_of(definition);
+    const bool implied = joint != nullptr && !is_connector(definition) && body_of[joint->nodes[0]] >= 0 &&
+                         body_of[joint->nodes[0]] == body_of[joint->nodes[1]];
+    (implied ? dropped : kept).push_back(std::move(definition));
+  }
+  model.constraints = std::move(kept);
+  if (!dropped.empty()) renumber(model, row);
+  return dropped;
+}
 
-/// What bodies carry when they carry nodes at the ends of rigid arms too; `kept` are left alone.
-std::vector<std::int32_t> bodies_with_arms(const Model& model, const std::vector<bool>& kept) {
+/// Which initial velocities name each node.
+using Starts = std::vector<std::vector<bool>>;
+
+Starts starts_of(const Model& model) {
+  Starts starts;
+  for (const auto& initial : model.initial_velocities) {
+    auto& named = starts.emplace_back(static_cast<std::size_t>(model.nodes.size()), false);
+    for (const auto node : initial.nodes) named[node] = true;
+  }
+  return starts;
+}
+
+/// Where a node is given a velocity of its own its joint decides what becomes of the body.
+bool starts_alone(const Starts& starts, std::int32_t node, std::int32_t other) {
+  return std::ranges::any_of(starts, [&](const std::vector<bool>& named) { return named[node] && !named[other]; });
+}
+
+/// What bodies carry when they carry nodes at the ends of rigid arms too; `kept` are left alone. Such nodes start as what they are joined to:
+/// `starts` then names them likewise.
+std::vector<std::int32_t> bodies_with_arms(const Model& model, const std::vector<bool>& kept, Starts& starts) {
   auto body_of = lasting_bodies(model);
   const auto turns = turning_nodes(model);
+  starts = starts_of(model);
   for (bool more = true; more;) {
     more = false;
     for (const auto& definition : model.constraints) {
@@ -78,8 +116,10 @@ std::vector<std::int32_t> bodies_with_arms(const Model& model, const std::vector
       if (joint == nullptr || is_connector(definition)) continue;
       for (const int end : {0, 1}) {
         const auto node = joint->nodes[end], other = joint->nodes[1 - end];
-        if (body_of[node] >= 0 || body_of[other] < 0 || kept[node] || !is_arm(*joint, end, turns)) continue;
+        if (body_of[node] >= 0 || body_of[other] < 0 || kept[node] || !is_arm(definition, end, turns) || starts_alone(starts, node, other))
+          continue;
         body_of[node] = body_of[other];
+        for (auto& named : starts) named[node] = named[other];
         more = true;
       }
     }
@@ -108,26 +148,6 @@ bool rests_for_good(std::span<const std::int32_t> nodes, const std::vector<std::
   return body >= 0 && nodes.size() > 1 && std::ranges::all_of(nodes, [&](std::int32_t node) { return body_of[node] == body; });
 }
 
-namespace {
-
-/// Takes joints out, but those of connectors, between nodes of one body; what follows others by their rows goes on doing so.
-std::vector<ConstraintDefinition> take_out_implied(Model& model, const std::vector<std::int32_t>& body_of) {
-  std::vector<ConstraintDefinition> kept, dropped;
-  std::vector<std::int32_t> row;
-  for (auto& definition : model.constraints) {
-    row.push_back(static_cast<std::int32_t>(kept.size()));
-    const auto* joint = joint_of(definition);
-    const bool implied = joint != nullptr && !is_connector(definition) && body_of[joint->nodes[0]] >= 0 &&
-                         body_of[joint->nodes[0]] == body_of[joint->nodes[1]];
-    (implied ? dropped : kept).push_back(std::move(definition));
-  }
-  model.constraints = std::move(kept);
-  if (!dropped.empty()) renumber(model, row);
-  return dropped;
-}
-
-}  // namespace
-
 std::optional<std::string> drop_implied_joints(Model& model) {
   const auto body_of = lasting_bodies(model);
   const auto dropped = take_out_implied(model, body_of);
@@ -155,7 +175,8 @@ void join_rigid_clouds(Model& model) {
 
 void carry_joined_nodes(Model& model) {
   auto kept = moved_otherwise(model);
-  auto body_of = bodies_with_arms(model, kept);
+  Starts starts;
+  auto body_of = bodies_with_arms(model, kept, starts);
   const auto holds_nothing = [&](const ConstraintDefinition& definition) {  // a connector that would lie within a body
     const auto* joint = joint_of(definition);
     if (joint == nullptr || !is_connector(definition)) return false;
@@ -165,13 +186,15 @@ void carry_joined_nodes(Model& model) {
   const auto find = [&] { return std::ranges::find_if(model.constraints, holds_nothing); };
   for (auto found = find(); found != model.constraints.end(); found = find()) {
     for (const auto node : joint_of(*found)->nodes) kept[node] = true;
-    body_of = bodies_with_arms(model, kept);
+    body_of = bodies_with_arms(model, kept, starts);
   }
   const auto before = lasting_bodies(model);
   bool carries_more = false;
   for (std::int32_t node = 0; node < model.nodes.size(); ++node) {
     if (body_of[node] == before[node]) continue;
     model.rigid_bodies[static_cast<std::size_t>(body_of[node])].tie_nodes.push_back(node);
+    for (std::size_t i = 0; i < starts.size(); ++i)
+      if (auto& named = model.initial_velocities[i].nodes; starts[i][node] && std::ranges::count(named, node) == 0) named.push_back(node);
     carries_more = true;
   }
   if (!carries_more) return;

