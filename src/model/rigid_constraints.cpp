@@ -98,9 +98,9 @@ Starts starts_of(const Model& model) {
   return starts;
 }
 
-/// Where a node is given a velocity of its own its joint decides what becomes of the body.
-bool starts_alone(const Starts& starts, std::int32_t node, std::int32_t other) {
-  return std::ranges::any_of(starts, [&](const std::vector<bool>& named) { return named[node] && !named[other]; });
+/// Where a node is given a velocity without its body its joint decides what becomes of both.
+bool starts_alone(const Starts& starts, std::int32_t node, std::int32_t other, std::int32_t reference) {
+  return std::ranges::any_of(starts, [&](const std::vector<bool>& named) { return named[node] && !named[other] && !named[reference]; });
 }
 
 /// What bodies carry when they carry nodes at the ends of rigid arms too; `kept` are left alone. Such nodes start as what they are joined to:
@@ -116,10 +116,11 @@ std::vector<std::int32_t> bodies_with_arms(const Model& model, const std::vector
       if (joint == nullptr || is_connector(definition)) continue;
       for (const int end : {0, 1}) {
         const auto node = joint->nodes[end], other = joint->nodes[1 - end];
-        if (body_of[node] >= 0 || body_of[other] < 0 || kept[node] || !is_arm(definition, end, turns) || starts_alone(starts, node, other))
-          continue;
+        if (body_of[node] >= 0 || body_of[other] < 0 || kept[node] || !is_arm(definition, end, turns)) continue;
+        const auto reference = model.rigid_bodies[static_cast<std::size_t>(body_of[other])].reference_node;
+        if (starts_alone(starts, node, other, reference)) continue;
         body_of[node] = body_of[other];
-        for (auto& named : starts) named[node] = named[other];
+        for (auto& named : starts) named[node] = named[node] || named[other];
         more = true;
       }
     }
