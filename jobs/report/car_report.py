@@ -119,7 +119,7 @@ def describe_drive(page, folder, drive, columns, away):
 def describe_stress(page, drive, step, time, fidelity):
     page.heading("Stress of strut houses and subframe")
     if fidelity == "rigid":
-        return page.missing("These parts are rigid in this job; fidelity semi-flexible or complete in car.toml makes them deform.")
+        return page.missing("These parts are rigid in this job; BALOCCO_FIDELITY=semi-flexible or complete makes them deform.")
     frame = min(step.frames, key=lambda frame: abs(frame.step_time - time))
     groups = {title: wanted for title, wanted in PARTS.items() if car_figures.stress_of(drive, frame, wanted)}
     if not groups:
