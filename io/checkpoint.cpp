@@ -24,11 +24,23 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 8;
+constexpr std::int64_t format_version = 9;
 
 ParallelFile::Layout plain_layout(int columns) {
   return {{static_cast<hsize_t>(columns)}, ParallelFile::Precision::double_, false};
 }
+
+std::string restraints_path(const std::string& element_type) { return "restraints_" + element_type; }
+
+/// Whether a file has tables of a kind: then those of all types of its model.
+bool has_tables(const Hdf5File& file, const Model& model, std::string (*path)(const std::string&)) {
+  return std::ranges::any_of(model.elements, [&](const auto& table) { return file.exists("/" + path(table.type->name)); });
+}
+
+/// Tables that only some files have.
+struct OptionalTables {
+  bool mass_scales = false, restraints = false;
+};
 
 /// Doubles of history that any element of the table has on any rank.
 int history_columns(const TableRows& rows, const Communicator& communicator) {
@@ -46,7 +58,7 @@ std::size_t checkpoint_bytes(const Model& model, const Communicator& communicato
   // Slave nodes of a pair and nodes of rigid bodies are at most all nodes each.
   values += static_cast<std::size_t>(model.nodes.size()) * (model.contact_pairs.size() * (contact_values + 1) + 5);
   values += 4 * static_cast<std::size_t>(model.nodes.size());  // identity
-  for (const auto& table : model.elements) values += 3 * static_cast<std::size_t>(table.size());
+  for (const auto& table : model.elements) values += 6 * static_cast<std::size_t>(table.size());  // identity, mass scales, restraints
   return values * sizeof(double) + (1 << 20);
 }
 
@@ -67,10 +79,13 @@ void write_tables(ParallelFile& file, const Model& model, const Communicator& co
     std::ranges::copy(pack(state.nodal_work[nodes.nodes[i]]), work.begin() + static_cast<std::ptrdiff_t>(i * work_values));
   write("work", nodes.exchange, std::move(work), work_values);
   const bool scaled = communicator.any(std::ranges::any_of(state.mass_scale, [](const auto& scale) { return !scale.empty(); }));
+  const bool restrained = communicator.any(std::ranges::any_of(state.restrained, [](const auto& bounds) { return !bounds.empty(); }));
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
-    if (scaled) write(mass_scale_path(model.elements[rows.table].type->name), rows.exchange, mass_scales_of(rows, state), 1);
+    const auto& type = model.elements[rows.table].type->name;
+    if (restrained) write(restraints_path(type), rows.exchange, restraints_of(rows, state), 2);
+    if (scaled) write(mass_scale_path(type), rows.exchange, mass_scales_of(rows, state), 1);
     const int columns = history_columns(rows, communicator);
-    if (columns > 0) write(history_path(model.elements[rows.table].type->name), rows.exchange, histories_of(rows, state, columns), columns);
+    if (columns > 0) write(history_path(type), rows.exchange, histories_of(rows, state, columns), columns);
   }
   for (std::int32_t pair = 0; pair < static_cast<std::int32_t>(model.contact_pairs.size()); ++pair) {
     const ContactRows rows = make_contact_rows(model, communicator, domain, pair, Copies::owned);
@@ -251,9 +266,8 @@ void read_body_memories(const Hdf5File& file, State& state) {
   for (std::size_t at = 0; at < memories.size(); at += 6) state.alpha_memory_of_bodies.push_back(unpack_alpha(&memories[at]));
 }
 
-/// `scaled`: the file has mass scales.
 void read_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
-                 ElementGroups groups, bool scaled, State& state) {
+                 ElementGroups groups, const OptionalTables& has, State& state) {
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::all);
   const auto read = [&](const std::string& name, const RowExchange& exchange, int columns) {
     return exchange.from_slab(file.read(name, exchange, columns), columns);
@@ -267,11 +281,13 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
   for (std::size_t i = 0; i < nodes.nodes.size(); ++i) state.nodal_work[nodes.nodes[i]] = unpack_work(&work[i * work_values]);
   state.element_history.resize(groups.size());
   state.mass_scale.resize(groups.size());
+  state.restrained.assign(groups.size(), {});
   for (const TableRows& rows : make_table_rows(model, communicator, groups)) {
-    if (const auto path = mass_scale_path(model.elements[rows.table].type->name); scaled)
-      set_mass_scales(rows, read(path, rows.exchange, 1), state);
+    const auto& type = model.elements[rows.table].type->name;
+    if (has.restraints) set_restraints(rows, read(restraints_path(type), rows.exchange, 2), state);
+    if (has.mass_scales) set_mass_scales(rows, read(mass_scale_path(type), rows.exchange, 1), state);
     const int columns = history_columns(rows, communicator);
-    if (columns > 0) set_histories(rows, read(history_path(model.elements[rows.table].type->name), rows.exchange, columns), columns, state);
+    if (columns > 0) set_histories(rows, read(history_path(type), rows.exchange, columns), columns, state);
   }
   state.contact.resize(model.contact_pairs.size());
   for (std::int32_t pair = 0; pair < static_cast<std::int32_t>(model.contact_pairs.size()); ++pair) {
@@ -287,18 +303,19 @@ void read_tables(ParallelFile& file, const Model& model, const Communicator& com
 /// `header`: which of the functions above reads what belongs to no table.
 void read_all(const std::string& path, const Model& model, const Communicator& communicator, const Domain& domain, ElementGroups groups,
               State& state, void (*header)(const Hdf5File&, const std::string&, const Model&, State&)) {
-  bool has_alpha_memory = false, scaled = false;
+  bool has_alpha_memory = false;
+  OptionalTables has;
   communicator.together([&] {
     const auto file = open_checkpoint(path);
     header(*file, path, model, state);
     read_bodies(*file, state);
     read_body_memories(*file, state);
     has_alpha_memory = file->exists("/alpha_memory");
-    scaled = has_mass_scales(*file, model);
+    has = {has_mass_scales(*file, model), has_tables(*file, model, restraints_path)};
     read_constraint_rows(*file, state);
   });
   ParallelFile file(path, communicator, ParallelFile::Mode::read);
-  read_tables(file, model, communicator, domain, groups, scaled, state);
+  read_tables(file, model, communicator, domain, groups, has, state);
   if (!has_alpha_memory) return;
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::all);
   set_alpha_memories(nodes.nodes, nodes.exchange.from_slab(file.read("alpha_memory", nodes.exchange, alpha_values), alpha_values), domain, state);
@@ -308,10 +325,7 @@ void read_all(const std::string& path, const Model& model, const Communicator& c
 
 std::string mass_scale_path(const std::string& element_type) { return "mass_scale_" + element_type; }
 
-bool has_mass_scales(const Hdf5File& file, const Model& model) {
-  return std::ranges::any_of(model.elements,
-                             [&](const auto& table) { return file.exists(fmt::format("/{}", mass_scale_path(table.type->name))); });
-}
+bool has_mass_scales(const Hdf5File& file, const Model& model) { return has_tables(file, model, mass_scale_path); }
 
 std::string history_path(const std::string& element_type) { return "history_" + element_type; }
 

@@ -109,6 +109,27 @@ void set_mass_scales(const TableRows& rows, std::span<const double> values, Stat
   }
 }
 
+std::vector<double> restraints_of(const TableRows& rows, const State& state) {
+  std::vector<double> values;
+  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+    const auto& bounds = state.restrained[rows.group_index[g]];
+    for (const auto& [omega_square, rate] : bounds) values.insert(values.end(), {omega_square, rate});
+    if (bounds.empty()) values.insert(values.end(), 2 * static_cast<std::size_t>(rows.groups[g]->size()), 0.0);
+  }
+  return values;
+}
+
+void set_restraints(const TableRows& rows, std::span<const double> values, State& state) {
+  for (std::size_t g = 0; g < rows.groups.size(); ++g) {
+    auto& bounds = state.restrained[rows.group_index[g]];
+    bounds.resize(static_cast<std::size_t>(rows.groups[g]->size()));
+    for (auto& bound : bounds) {
+      bound = {values[0], values[1]};
+      values = values.subspan(2);
+    }
+  }
+}
+
 std::vector<double> histories_of(const TableRows& rows, const State& state, int columns) {
   std::vector<double> values(rows.exchange.held() * columns, 0.0);
   std::size_t first = 0;

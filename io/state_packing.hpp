@@ -52,6 +52,10 @@ void set_alpha_memories(const std::vector<std::int32_t>& nodes, std::span<const 
 std::vector<double> mass_scales_of(const TableRows& rows, const State& state);
 void set_mass_scales(const TableRows& rows, std::span<const double> values, State& state);
 
+/// What restrains the elements held in a table: omega square and rate each, 0 where the state says nothing.
+std::vector<double> restraints_of(const TableRows& rows, const State& state);
+void set_restraints(const TableRows& rows, std::span<const double> values, State& state);
+
 /// History of the elements held in a table, `columns` an element (shorter histories end in zeros).
 std::vector<double> histories_of(const TableRows& rows, const State& state, int columns);
 void set_histories(const TableRows& rows, std::span<const double> values, int columns, State& state);

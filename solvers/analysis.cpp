@@ -87,6 +87,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
     group->set_initial_fields(model, current.element_history.back());
   }
   current.mass_scale.resize(element_groups.size());
+  current.restrained.resize(element_groups.size());
   for (const auto& pair : contacts) current.contact.emplace_back(pair.size());
   current.rigid_bodies = initial_rigid_bodies(model);
   undeformed_increment = balocco::undeformed_increment(model, communicator, domain, element_groups);

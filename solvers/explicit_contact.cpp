@@ -40,10 +40,13 @@ ExplicitContact::ExplicitContact(const Analysis& analysis, const Step& step, con
 /// Of a rigid body's nodes the heaviest pull is on one alone: stiffness / mass of the body is at most the largest of its nodes.
 void ExplicitContact::find_nodal_frequency(const Analysis& analysis) {
   const auto& mass = analysis.scaled_inertia().mass;
+  nodal_frequency_squared_.assign(stiffness_.size(), 0.0);
   double largest = 0.0;
-  for (std::size_t node = 0; node < stiffness_.size(); ++node)
-    if (mass[node] > 0.0) largest = std::max(largest, stiffness_[node] / mass[node]);
-  nodal_frequency_squared_ = analysis.communicator.maximum(largest);
+  for (std::size_t node = 0; node < stiffness_.size(); ++node) {
+    if (mass[node] > 0.0) nodal_frequency_squared_[node] = stiffness_[node] / mass[node];
+    largest = std::max(largest, nodal_frequency_squared_[node]);
+  }
+  largest_nodal_frequency_squared_ = analysis.communicator.maximum(largest);
 }
 
 void ExplicitContact::renew_inertia(const Analysis& analysis, const RigidDynamics& bodies, std::span<const double> inverse_mass) {
@@ -108,11 +111,8 @@ void ExplicitContact::add_stiff_forces(Analysis& analysis, const Instant& instan
   }
 }
 
-double ExplicitContact::frequency_squared(const Analysis& analysis) const {
-  return nodal_frequency_squared_ + (free_masters_ ? frequency_squared_of_masters(analysis) : 0.0);
-}
-
 double ExplicitContact::frequency_squared_of_masters(const Analysis& analysis) const {
+  if (!free_masters_) return 0.0;
   std::vector<ExactSum> sums(pairs_.size());
   for (std::size_t i = 0; i < pairs_.size(); ++i) {
     if (!pairs_[i].master.yields()) continue;

@@ -28,9 +28,11 @@ class ExplicitContact {
   /// Stiff springs: when `force` is whole and NodalConstraints::find_velocities() has told what is prescribed.
   void add_stiff_forces(Analysis& analysis, const Instant& instant, double* force);
 
-  /// Bound of what the springs add to the square of the highest frequency: stiffness / mass summed over the pairs of a node,
-  /// and of all closed points against a free master. Collective where there are free masters.
-  double frequency_squared(const Analysis& analysis) const;
+  /// Bounds of what the springs add to the squares of frequencies: stiffness / mass of each local node, over all pairs; the largest
+  /// of them, of any rank; and the sum over all closed points against free masters, which is collective.
+  const std::vector<double>& nodal_frequencies_squared() const { return nodal_frequency_squared_; }
+  double largest_nodal_frequency_squared() const { return largest_nodal_frequency_squared_; }
+  double frequency_squared_of_masters(const Analysis& analysis) const;
   /// Deepest penetration over all ranks and pairs. Collective.
   double largest_penetration(const Analysis& analysis) const;
   /// Tells once a step when a closed node has come to where the profile of its master had ended. Collective.
@@ -52,12 +54,12 @@ class ExplicitContact {
   };
 
   void find_nodal_frequency(const Analysis& analysis);
-  double frequency_squared_of_masters(const Analysis& analysis) const;
 
   std::vector<Pair> pairs_;
   std::vector<Held> held_;
   std::vector<double> stiffness_;  // of springs, per local node
-  double nodal_frequency_squared_ = 0.0;
+  std::vector<double> nodal_frequency_squared_;  // likewise
+  double largest_nodal_frequency_squared_ = 0.0;
   bool free_masters_ = false;
 };
 

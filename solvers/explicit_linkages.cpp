@@ -369,4 +369,15 @@ double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, b
   return 0.0;
 }
 
+ExplicitLinkages::Company ExplicitLinkages::company(std::int32_t node, bool rotation) const {
+  const auto kind = rotation ? Mover::Kind::rotation : Mover::Kind::translation;
+  Company company;
+  for (const auto& system : systems_) {
+    if (std::ranges::none_of(system.movers, [&](const Mover& mover) { return mover.kind == kind && mover.index == node; })) continue;
+    for (const auto& mover : system.movers)
+      (mover.kind == Mover::Kind::body ? company.bodies : company.nodes).push_back(mover.index);
+  }
+  return company;
+}
+
 }  // namespace balocco

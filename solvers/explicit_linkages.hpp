@@ -37,6 +37,11 @@ class ExplicitLinkages {
   const InverseInertia& inverse() const { return inverse_; }
   /// Bound of the acceleration per force, where the constraints let a node move (turn) that they move.
   double mobility(const Analysis& analysis, std::int32_t node, bool rotation);
+  /// All that the linkage moves that moves (turns) a local node: local nodes and bodies.
+  struct Company {
+    std::vector<std::int32_t> nodes, bodies;
+  };
+  Company company(std::int32_t node, bool rotation) const;
   /// Takes over masses that have changed; sets `inverse` to zero as the constructor does.
   void renew_inertia(InverseInertia& inverse);
   /// Velocities at the start of a step: the nearest ones, by mass, that the constraints allow. As the next two: @throws AnalysisError, on the

@@ -14,21 +14,6 @@ namespace balocco {
 
 namespace {
 
-template <class Visit>
-void for_each_restraint(const Analysis& analysis, Visit visit) {
-  for (const auto& group : analysis.element_groups) {
-    const auto kind = analysis.model.sections[group->section()].kind;
-    if (kind != Section::Kind::spring && kind != Section::Kind::dashpot && kind != Section::Kind::connector) continue;
-    for (std::int32_t element = 0; element < group->size(); ++element) visit(*group, element);
-  }
-}
-
-Restraint restraint_of(const ElementGroup& group, std::int32_t element, bool rotations) {
-  return rotations ? group.rotary_restraint(element) : group.restraint(element);
-}
-
-bool restrains(const Restraint& of) { return of.stiffness > 0.0 || of.viscosity > 0.0 || of.force > 0.0; }
-
 /// Sums over all elements that act on displacements, or on rotations, for the first `count` local nodes; empty if there are none.
 std::vector<Restraint> summed(const Analysis& analysis, std::int32_t count, bool rotations) {
   const auto for_each_of_kind = [&](auto visit) {
@@ -63,29 +48,18 @@ std::vector<Restraint> summed(const Analysis& analysis, std::int32_t count, bool
   return result;
 }
 
-/// Sums of the restraints on all nodes of each rigid body; `body_of` says which one moves (turns) a node.
-template <class BodyOf>
-std::vector<Restraint> body_restraints(const Analysis& analysis, const std::vector<Restraint>& restraints, BodyOf body_of) {
-  const std::size_t bodies = analysis.model.rigid_bodies.size();
-  std::vector<ExactSum> sums(2 * bodies);
-  for (std::size_t node = 0; node < restraints.size(); ++node) {
-    const auto body = body_of(static_cast<std::int32_t>(node));
-    if (body < 0 || !analysis.domain.owned[node]) continue;
-    sums[2 * body].add(restraints[node].stiffness);
-    sums[2 * body + 1].add(restraints[node].viscosity);
-  }
-  analysis.communicator.sum(std::span<ExactSum>(sums));
-  std::vector<Restraint> result(bodies);
-  for (std::size_t body = 0; body < bodies; ++body)
-    result[body] = {.stiffness = sums[2 * body].value(), .viscosity = sums[2 * body + 1].value()};
-  return result;
+}  // namespace
+
+Restraint restraint_of(const ElementGroup& group, std::int32_t element, bool rotations) {
+  return rotations ? group.rotary_restraint(element) : group.restraint(element);
 }
+
+bool restrains(const Restraint& of) { return of.stiffness > 0.0 || of.viscosity > 0.0 || of.force > 0.0; }
 
 std::int32_t moving_body(const Analysis& analysis, std::int32_t node) {
   return std::max(analysis.carrier(node), analysis.reference_of(node));
 }
 
-/// Inverse of the smallest rotary inertia of a node that turns freely; 0 if it has none.
 std::vector<double> rotary_mobilities(const Analysis& analysis) {
   std::vector<double> inertia(analysis.scaled_inertia().rotary);
   for (const auto& [node, section, tensor] : analysis.rotary_tensors) {
@@ -96,48 +70,8 @@ std::vector<double> rotary_mobilities(const Analysis& analysis) {
   return inertia;
 }
 
-}  // namespace
-
 NodalRestraints nodal_restraints(const Analysis& analysis) {
   return {summed(analysis, analysis.domain.size(), false), summed(analysis, analysis.domain.turning, true)};
-}
-
-RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies,
-                               ExplicitLinkages& linkages) {
-  const auto mover = [&](std::int32_t node) { return moving_body(analysis, node); };
-  const auto turner = [&](std::int32_t node) { return analysis.turning_body(node); };
-  const auto pulled = body_restraints(analysis, restraints.translation, mover);
-  const auto twisted = body_restraints(analysis, restraints.rotation, turner);
-  const auto rotary = rotary_mobilities(analysis);
-  const auto mobility_of_node = [&](std::int32_t node, bool rotates) {
-    const double mass = analysis.scaled_inertia().mass[node];
-    if (rotates ? rotary[node] > 0.0 : mass > 0.0) return rotates ? rotary[node] : 1.0 / mass;
-    return linkages.mobility(analysis, node, rotates);
-  };
-  RestraintBound largest;
-  LocalStability governing;
-  for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
-    RestraintBound bound;
-    for (const bool rotates : {false, true}) {
-      if (!restrains(restraint_of(group, element, rotates))) continue;
-      for (const auto node : group.nodes(element)) {
-        const auto body = rotates ? turner(node) : mover(node);
-        const Restraint& total = rotates ? (body >= 0 ? twisted[body] : restraints.rotation[node])
-                                         : (body >= 0 ? pulled[body] : restraints.translation[node]);
-        const double mobility = body < 0   ? mobility_of_node(node, rotates)
-                                : rotates ? bodies.rotary_mobility(analysis, body)
-                                          : bodies.mobility(analysis, body, node);
-        bound.omega_square += total.stiffness * mobility;
-        bound.rate += total.viscosity * mobility;
-      }
-    }
-    largest.omega_square = std::max(largest.omega_square, bound.omega_square);
-    largest.rate = std::max(largest.rate, bound.rate);
-    if (bound.omega_square > 0.0 || bound.rate > 0.0)
-      governing.merge(bound.increment(), analysis.model.elements[group.table()].id[group.row(element)]);
-  });
-  return {analysis.communicator.maximum(largest.omega_square), analysis.communicator.maximum(largest.rate),
-          analysis.communicator.minimum(Communicator::Located{governing.increment, governing.element}).payload};
 }
 
 void refuse_massless_restraints(const Analysis& analysis, const Step& step, const ExplicitLinkages& linkages) {

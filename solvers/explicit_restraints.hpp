@@ -18,10 +18,21 @@ struct NodalRestraints {
 /// Collective.
 NodalRestraints nodal_restraints(const Analysis& analysis);
 
-/// Each element takes of a node's mass (or of a rigid body's) the share that its stiffness has in all of them there, so that the bound
-/// is sum K / m over its nodes: exact for one spring between two masses, and for long chains. Collective.
-RestraintBound restraint_bound(const Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies,
-                               ExplicitLinkages& linkages);
+/// Elements of this rank that hold masses without having any: springs, dashpots and connectors.
+template <class Visit>
+void for_each_restraint(const Analysis& analysis, Visit visit) {
+  for (const auto& group : analysis.element_groups) {
+    const auto kind = analysis.model.sections[group->section()].kind;
+    if (kind != Section::Kind::spring && kind != Section::Kind::dashpot && kind != Section::Kind::connector) continue;
+    for (std::int32_t element = 0; element < group->size(); ++element) visit(*group, element);
+  }
+}
+Restraint restraint_of(const ElementGroup& group, std::int32_t element, bool rotations);
+bool restrains(const Restraint& of);
+/// Body that moves a local node, or -1.
+std::int32_t moving_body(const Analysis& analysis, std::int32_t node);
+/// Of local nodes: inverse of the smallest rotary inertia of a node that turns freely; 0 if it has none.
+std::vector<double> rotary_mobilities(const Analysis& analysis);
 
 /// Refuses nodes that a spring or dashpot would have to move without a mass, or turn without a rotary inertia. @throws InputError
 void refuse_massless_restraints(const Analysis& analysis, const Step& step, const ExplicitLinkages& linkages);

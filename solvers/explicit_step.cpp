@@ -8,6 +8,7 @@
 
 #include "elements/bulk_viscosity.hpp"
 #include "explicit_nodes.hpp"
+#include "explicit_restraint_bound.hpp"
 #include "explicit_start.hpp"
 #include "model/diagnostics.hpp"
 #include "step_driver.hpp"
@@ -56,10 +57,8 @@ InverseInertia inverse_inertia(const Analysis& analysis, const GyroscopicNodes& 
 /// scaled last, holds on, also after a restart.
 RestraintBound bound_of_step(Analysis& analysis, const NodalRestraints& restraints, const RigidDynamics& bodies, ExplicitLinkages& linkages) {
   auto& state = analysis.current;
-  if (state.increment > 0) return {state.restraint_omega_square, state.restraint_rate};
-  const auto bound = restraint_bound(analysis, restraints, bodies, linkages);
-  state.restraint_omega_square = bound.omega_square;
-  state.restraint_rate = bound.rate;
+  if (state.increment > 0) return {{state.restraint_omega_square, state.restraint_rate}};
+  const auto bound = find_restraint_bound(analysis, restraints, bodies, linkages);
   state.restraint_increment = bound.increment();
   return bound;
 }
@@ -108,6 +107,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     refuse_loads_without_inertia();
     refuse_massless_restraints(analysis, step, linkages_);
   });
+  tell_added_bounds();
   find_loaded_nodes();
   bodies_.rest_nodes(uses_of_nodes());
   list_drifting_nodes();
@@ -224,22 +224,37 @@ void ExplicitStep::look_at_mass_scaling(double previous_time) {
   scales_masses_ = due;
 }
 
+void ExplicitStep::tell_added_bounds() {
+  const auto& of_contact = contact_.nodal_frequencies_squared();
+  for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index) {
+    auto& group = *analysis_.element_groups[index];
+    auto added = analysis_.current.restrained[index];
+    for (std::int32_t element = 0; group.density() > 0.0 && element < group.size(); ++element) {
+      double largest = 0.0;
+      for (const auto node : group.nodes(element)) largest = std::max(largest, of_contact[node]);
+      if (largest == 0.0) continue;
+      added.resize(static_cast<std::size_t>(group.size()));
+      added[element].omega_square += largest;
+    }
+    group.set_added_bounds(added);
+  }
+}
+
 void ExplicitStep::scale_masses() {
   if (!scales_masses_) return;
   timers.measure(Phase::update, [&] {
     if (!mass_scaling_.adapt(analysis_)) return;
-    stability_ = {};
-    for (const auto& group : analysis_.element_groups)
-      if (const auto stable = group->smallest_recorded_increment(); stable.element >= 0)
-        stability_.merge(stable.increment, analysis_.model.elements[group->table()].id[group->row(stable.element)]);
     bodies_.renew_inertia(analysis_);
     gyroscopic_.renew_inertia(analysis_);
     find_inverse(analysis_, gyroscopic_, inverse_);
     linkages_.renew_inertia(inverse_);
     contact_.renew_inertia(analysis_, bodies_, inverse_.mass);
-    restraint_bound_ = balocco::restraint_bound(analysis_, restraints_, bodies_, linkages_);
-    analysis_.current.restraint_omega_square = restraint_bound_.omega_square;
-    analysis_.current.restraint_rate = restraint_bound_.rate;
+    restraint_bound_ = find_restraint_bound(analysis_, restraints_, bodies_, linkages_);
+    tell_added_bounds();
+    stability_ = {};
+    for (const auto& group : analysis_.element_groups)
+      if (const auto stable = group->smallest_recorded_increment(); stable.element >= 0)
+        stability_.merge(stable.increment, analysis_.model.elements[group->table()].id[group->row(stable.element)]);
   });
 }
 
@@ -305,9 +320,16 @@ void ExplicitStep::choose_increment() {
     if (agreed[2] > 0.0) report_failure();
     if (-agreed[0] < collapsing * analysis_.undeformed_increment) report_collapse();
     attention_ = agreed[1] > 0.0;
-    const double limit = combined_limit(-agreed[0], contact_.frequency_squared(analysis_), restraint_bound_);
+    const double limit = limit_beside(-agreed[0]);
     next_increment_ = control_.next_increment(state, last_increment_, limit);
   });
+}
+
+double ExplicitStep::limit_beside(double of_elements) const {
+  const double of_masters = contact_.frequency_squared_of_masters(analysis_);
+  const FrequencyBound alone{restraint_bound_.omega_square + contact_.largest_nodal_frequency_squared() + of_masters,
+                             restraint_bound_.rate};
+  return std::min(combined_limit(of_elements, {.omega_square = of_masters}), neutral_increment(alone.omega_square, alone.rate));
 }
 
 void ExplicitStep::add_half_work(double increment, std::vector<NodalWork>& work) const {

@@ -85,6 +85,11 @@ class ExplicitStep {
   RigidDynamics::Uses uses_of_nodes() const;
   void list_drifting_nodes();
   void look_at_mass_scaling(double previous_time);
+  /// Tells elements what springs and contact add to them.
+  void tell_added_bounds();
+  /// The limit of the elements, and that of what moves without any of them, with the springs of contact with free masters, which act on
+  /// both. Collective where there are such.
+  double limit_beside(double of_elements) const;
   NodalForces forces() { return {force_.data(), moment_.data()}; }
   std::span<const std::int32_t> loaded_turning_nodes() const { return std::span(loaded_nodes_).first(loaded_turning_); }
   /// What the halo sums: forces, and external ones if there are any.

@@ -28,9 +28,8 @@ TimeControl::TimeControl(const Step& step)
 
 double RestraintBound::increment() const { return neutral_increment(omega_square, rate); }
 
-double combined_limit(double stable, double contact_frequency_squared, const RestraintBound& restraints) {
-  const double omega_square = 4.0 / (stable * stable) + contact_frequency_squared + restraints.omega_square;
-  return neutral_increment(omega_square, restraints.rate);
+double combined_limit(double stable, const FrequencyBound& added) {
+  return neutral_increment(4.0 / (stable * stable) + added.omega_square, added.rate);
 }
 
 double TimeControl::automatic(State& state, double previous, double stable) const {

@@ -17,17 +17,15 @@ struct Instant {
   double average() const { return 0.5 * (previous + next); }
 };
 
-/// Bounds of the eigenvalues of M^-1 K and M^-1 C of springs, dashpots and connectors: squared circular frequency and damping rate.
-struct RestraintBound {
-  double omega_square = 0.0, rate = 0.0;
+/// That of springs, dashpots and connectors, beside what they add to elements.
+struct RestraintBound : FrequencyBound {
   std::int64_t element = -1;  // id of the one that bounds the increment most; -1: there is none, or the step goes on from a checkpoint
 
   double increment() const;
 };
 
-/// Elements' limit combined with that of contact springs, springs and dashpots: the squares of frequencies and the damping rates
-/// add up at most.
-double combined_limit(double stable, double contact_frequency_squared, const RestraintBound& restraints);
+/// A limit combined with what acts on the same masses: the squares of frequencies and the damping rates add up at most.
+double combined_limit(double stable, const FrequencyBound& added);
 
 /// The stable increment of this rank's elements, and the id of the element that governs it.
 struct LocalStability {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
 #include "elements/failure.hpp"
 #include "math/pack.hpp"
@@ -65,19 +66,38 @@ void ElementGroup::set_mass_scale(std::span<const double> scale) {
   if (!mass_scale_.empty()) mass_scale_.resize(static_cast<std::size_t>(padded_size_), mass_scale_.back());
   time_scale_.resize(mass_scale_.size());
   std::ranges::transform(mass_scale_, time_scale_.begin(), [](double s) { return std::sqrt(s); });
+  decide_adjusting();
+}
+
+void ElementGroup::set_added_bounds(std::span<const FrequencyBound> added) {
+  added_bounds_.assign(added.begin(), added.end());
+  if (!added_bounds_.empty()) added_bounds_.resize(static_cast<std::size_t>(padded_size_), added_bounds_.back());
+  decide_adjusting();
+}
+
+void ElementGroup::decide_adjusting() {
+  adjusts_increments_ = records_increments_ || !time_scale_.empty() || !added_bounds_.empty();
+}
+
+double ElementGroup::adjusted(double increment, std::int32_t element) const {
+  if (!time_scale_.empty()) increment *= time_scale_[element];
+  if (added_bounds_.empty() || added_bounds_[element] == FrequencyBound{}) return increment;
+  const auto& added = added_bounds_[element];
+  return neutral_increment(4.0 / (increment * increment) + added.omega_square, added.rate);
 }
 
 void ElementGroup::record_increments(bool record) {
   records_increments_ = record;
   // Kernels without masses of their own bound no increment, and record none.
   if (record) recorded_increments_.assign(static_cast<std::size_t>(padded_size_), StableIncrement{}.increment);
+  decide_adjusting();
 }
 
 StableIncrement ElementGroup::smallest_recorded_increment() const {
   StableIncrement smallest;
   for (std::int32_t element = 0; element < size_; ++element)
     if (acts(element))
-      smallest.merge({(time_scale_.empty() ? 1.0 : time_scale_[element]) * recorded_increments_[element], element});
+      smallest.merge({adjusted(recorded_increments_[element], element), element});
   return smallest;
 }
 

@@ -18,6 +18,7 @@
 
 #include "elements/nodal_motion.hpp"
 #include "math/scalar.hpp"
+#include "model/frequency_bound.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -120,6 +121,10 @@ class ElementGroup {
   /// The smallest recorded one, with the masses as they are scaled now.
   StableIncrement smallest_recorded_increment() const;
 
+  /// What springs and contact add to each element, because they move the masses of its nodes; empty: nothing. The increments that
+  /// add_forces() returns allow for it.
+  void set_added_bounds(std::span<const FrequencyBound> added);
+
   /// Lumped rotary inertia of each node, the same about all axes (mass x length^2), raised for the explicit increment's sake; asked
   /// only where nodes turn.
   virtual void lumped_rotary_inertia(std::int32_t element, std::span<double> inertia) const;
@@ -180,20 +185,21 @@ class ElementGroup {
   /// Merges the increments of the pack that starts at lane `first`.
   template <PackOfLanes T>
   void merge(T increments, std::int32_t first, StableIncrement& smallest) const {
-    if (records_increments_ || !time_scale_.empty()) increments = rescaled(increments, first);
+    if (adjusts_increments_) increments = adjusted(increments, first);
     if (all_of(increments >= T(smallest.increment))) return;
     for (int lane = 0; lane < pack_size; ++lane)
       if (acts(first + lane)) smallest.merge({increments[lane], first + lane});
   }
 
-  /// With mass scaling, apart from the kernels that most runs go through: records increments, and takes them back to scaled masses.
+  /// Apart from the kernels that most groups go through: records increments, and adjusts them.
   template <PackOfLanes T>
-  [[gnu::noinline]] T rescaled(T increments, std::int32_t first) const {
+  [[gnu::noinline]] T adjusted(T increments, std::int32_t first) const {
     if (records_increments_)
       for (int lane = 0; lane < pack_size; ++lane) recorded_increments_[first + lane] = increments[lane];
-    if (!time_scale_.empty()) increments *= T([&](int lane) { return time_scale_[first + lane]; });
-    return increments;
+    return T([&](int lane) { return adjusted(double{increments[lane]}, first + lane); });
   }
+  /// The increment of an element with its own mass alone, taken to its scaled mass and to what is added to it.
+  double adjusted(double increment, std::int32_t element) const;
 
   virtual int point_components(std::string_view variable) const = 0;
   virtual void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
@@ -212,6 +218,7 @@ class ElementGroup {
     std::vector<std::int32_t> resting;
   };
   Work work_of(std::int32_t first, std::int32_t last) const;
+  void decide_adjusting();
 
   std::int32_t scratch_node_;
   std::vector<bool> acting_;  // padded; empty: all
@@ -223,7 +230,9 @@ class ElementGroup {
     return units;
   }();
   std::vector<double> mass_scale_, time_scale_;  // padded; empty: all 1
+  std::vector<FrequencyBound> added_bounds_;     // padded; empty: nothing is added
   bool records_increments_ = false;
+  bool adjusts_increments_ = false;  // any of the three
   mutable std::vector<double> recorded_increments_;  // padded
 };
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "elements/nodal_motion.hpp"
+#include "model/frequency_bound.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -78,6 +79,9 @@ struct State {
   std::vector<NodalWork> nodal_work;
   std::vector<std::vector<double>> element_history;       // per element group
   std::vector<std::vector<double>> mass_scale;  // explicit: per element group, of each element; empty: all have their own mass
+  /// Explicit: per element group, what springs and dashpots added to each element when the step began, or masses were scaled last;
+  /// empty: nothing.
+  std::vector<std::vector<FrequencyBound>> restrained;
   std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
   std::vector<RigidBodyState> rigid_bodies;
   // Of constraints, kept by the ranks that hold their nodes:

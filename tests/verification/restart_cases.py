@@ -112,6 +112,74 @@ def ended_step(run):
     check("same bits when that is restarted", same_steps(job, again, (2, 3)), 1.0, 0.0)
 
 
+def tumbling(run):
+    """A body that tumbles at a spring from a rod: how far it gives way, and with it what bounds the rod's increment, was found when the step
+    began. It goes on with the same bits from where it was stopped, on other ranks."""
+    deck = """*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 2., 0., 0.
+7, 1., 1., 0.
+8, 1.5, 1.1, 0.2
+9, 0.6, 0.8, 0.3
+*ELEMENT, TYPE=T3D2, ELSET=ROD
+1, 1, 2
+2, 2, 3
+*SOLID SECTION, ELSET=ROD, MATERIAL=ROD
+1.
+*MATERIAL, NAME=ROD
+*ELASTIC
+1000., 0.
+*DENSITY
+1.
+*ELEMENT, TYPE=MASS, ELSET=MASS
+21, 7
+22, 8
+23, 9
+*MASS, ELSET=MASS
+1.
+*NSET, NSET=BODY
+7, 8, 9
+*RIGID BODY, PIN NSET=BODY, REF NODE=7
+*ELEMENT, TYPE=ROTARYI, ELSET=TURNS
+31, 7
+*ROTARY INERTIA, ELSET=TURNS
+0.2, 0.3, 0.4
+*ELEMENT, TYPE=SPRINGA, ELSET=SPRING
+11, 2, 8
+*SPRING, ELSET=SPRING
+
+300.
+*ELEMENT, TYPE=DASHPOTA, ELSET=DASHPOT
+12, 2, 8
+*DASHPOT, ELSET=DASHPOT
+
+2.
+*BOUNDARY
+1, 1, 3
+3, 1, 3
+*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY
+BODY, 3., 1., 0.
+1., 1., 0., 0., 0., 1.
+*STEP
+*DYNAMIC, EXPLICIT
+, 2.
+*RESTART, WRITE, NUMBER INTERVAL=1
+*OUTPUT, FIELD, NUMBER INTERVAL=4, PRECISION=DOUBLE
+*NODE OUTPUT
+U, V, RF
+*OUTPUT, HISTORY, TIME INTERVAL=0.01
+*ENERGY OUTPUT
+ALLKE, ALLIE, ALLVD, ALLWK, ETOTAL
+*END STEP
+"""
+    whole = run.job(deck, 1, "whole")
+    run.stopped(deck, "in_two")
+    job = run.job(deck, 2, "in_two", ("--restart",))
+    check("same bits", same_steps(whole, job, (1,)), 1.0, 0.0)
+    check("it tumbles", float(np.abs(whole.frame("U", -1)).max() > 0.5), 1.0, 0.0)
+
+
 def refusals(run):
     """What cannot be gone on from is told."""
     first = run.job(MODEL + PRESSED, 1, "first")
@@ -131,7 +199,7 @@ def refusals(run):
     check("no job is named", float("run with --import OLD.ckpt.h5" in job.output), 1.0, 0.0)
 
 
-CASES = {case.__name__: case for case in (more_steps, longer_step, ended_step, refusals)}
+CASES = {case.__name__: case for case in (more_steps, longer_step, ended_step, tumbling, refusals)}
 
 if __name__ == "__main__":
     name, program, folder = sys.argv[1:4]

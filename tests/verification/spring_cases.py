@@ -196,5 +196,86 @@ def swinging_spring(run):
     check("mean length", radius.mean(), 1.0 + speed**2 / stiffness, 1e-4)
 
 
+def rods(restraints="", bodies=""):
+    """Two rods of two elements, of stiffness 1000 and mass 1 at their middle nodes, clamped at their ends, that swing along x."""
+    return f"""*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+3, 2., 0., 0.
+4, 0., 1., 0.
+5, 1., 1., 0.
+6, 2., 1., 0.
+7, 3., 0., 0.
+8, 4., 0., 0.
+*NSET, NSET=MASSES
+2, 5
+*ELEMENT, TYPE=T3D2, ELSET=RODS
+1, 1, 2
+2, 2, 3
+3, 4, 5
+4, 5, 6
+*SOLID SECTION, ELSET=RODS, MATERIAL=ROD
+1.
+*MATERIAL, NAME=ROD
+*ELASTIC
+1000., 0.
+*DENSITY
+1.
+{bodies}{restraints}*BOUNDARY
+1, 1, 3
+3, 1, 3
+4, 1, 3
+6, 1, 3
+2, 2, 3
+5, 2, 3
+7, 2, 3
+8, 1, 3
+*INITIAL CONDITIONS, TYPE=VELOCITY
+2, 1, 1e-2
+5, 1, 1e-2
+*STEP
+*DYNAMIC, EXPLICIT
+, 3.
+*BULK VISCOSITY
+0., 0.
+{HISTORY}*RESTART, WRITE, NUMBER INTERVAL=1
+*END STEP
+"""
+
+
+def beside_elements(run):
+    """A spring or a dashpot takes from the increment of the elements that move with its ends, and of no others: not where it holds masses
+    of its own; at a node of a rod what that node's mass allows; and little where its other end is heavy."""
+    rod = 1.0 / math.sqrt(1000.0)  # L / c of a free element
+
+    def limit(stiffness, rate):
+        half = 0.5 * rate
+        return 2.0 / (half + math.sqrt(half * half + 4.0 / rod**2 + stiffness))
+
+    def spring(*nodes, stiffness=300.0, viscosity=4.0):
+        where = ", ".join(map(str, nodes))
+        return (f"*ELEMENT, TYPE=SPRINGA, ELSET=SPRING\n11, {where}\n*SPRING, ELSET=SPRING\n\n{stiffness}\n"
+                f"*ELEMENT, TYPE=DASHPOTA, ELSET=DASHPOT\n12, {where}\n*DASHPOT, ELSET=DASHPOT\n\n{viscosity}\n")
+
+    def body(mass):
+        return f"*ELEMENT, TYPE=MASS, ELSET=MASS\n21, 7\n*MASS, ELSET=MASS\n{mass}\n"
+
+    def share(value, mass):  # of the end at a rod, whose other end has that mass
+        return value + math.sqrt(value * value / mass)
+
+    cases = {"beside the rods": (spring(7, 8), body(1.0), rod),
+             "between a rod and the ground": (spring(2, 8), body(1.0), limit(300.0, 4.0)),
+             "between a rod and a heavy mass": (spring(2, 7), body(1e4), limit(share(300.0, 1e4), share(4.0, 1e4)))}
+    for what, (restraint, mass, expected) in cases.items():
+        job = run(rods(restraint, mass), 1)
+        time, u = job.history("node_2", "U1")
+        check(f"increment with a spring {what}", time[3] - time[2], BELOW_LIMIT * expected, 1e-6)
+        half = len(u) // 2
+        check("it does not grow", float(np.abs(u[half:]).max() <= 1.01 * np.abs(u[:half]).max()), 1.0, 0.0)
+        check_energy(job, 1e-2)
+        one, two = (job.history("node_5", "U1")[1], run(rods(restraint, mass), 2).history("node_5", "U1")[1])
+        check("one rank and two find the same bits", float(np.array_equal(one, two)), 1.0, 0.0)
+
+
 if __name__ == "__main__":
     run_case(globals())

@@ -81,9 +81,9 @@ TEST(TimeControl, LandsWithoutAShortIncrementThatWouldChangeWhatTheLongerOnesCon
 }
 
 TEST(TimeControl, SquaresOfFrequenciesAddUp) {
-  EXPECT_DOUBLE_EQ(combined_limit(0.5, 0.0, {}), 0.5);
+  EXPECT_DOUBLE_EQ(combined_limit(0.5, {}), 0.5);
   const double omega = 4.0;  // 2 / 0.5
-  EXPECT_NEAR(combined_limit(0.5, 9.0, {}), 2.0 / std::hypot(omega, 3.0), 1e-15);
+  EXPECT_NEAR(combined_limit(0.5, {.omega_square = 9.0}), 2.0 / std::hypot(omega, 3.0), 1e-15);
 }
 
 }  // namespace
