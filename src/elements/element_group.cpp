@@ -72,6 +72,9 @@ void ElementGroup::set_mass_scale(std::span<const double> scale) {
 void ElementGroup::set_added_bounds(std::span<const FrequencyBound> added) {
   added_bounds_.assign(added.begin(), added.end());
   if (!added_bounds_.empty()) added_bounds_.resize(static_cast<std::size_t>(padded_size_), added_bounds_.back());
+  added_to_pack_.assign(added_bounds_.size() / pack_size, false);
+  for (std::size_t lane = 0; lane < added_bounds_.size(); ++lane)
+    if (added_bounds_[lane] != FrequencyBound{}) added_to_pack_[lane / pack_size] = true;
   decide_adjusting();
 }
 
@@ -79,10 +82,8 @@ void ElementGroup::decide_adjusting() {
   adjusts_increments_ = records_increments_ || !time_scale_.empty() || !added_bounds_.empty();
 }
 
-double ElementGroup::adjusted(double increment, std::int32_t element) const {
-  if (!time_scale_.empty()) increment *= time_scale_[element];
-  if (added_bounds_.empty() || added_bounds_[element] == FrequencyBound{}) return increment;
-  const auto& added = added_bounds_[element];
+double ElementGroup::allowing_for(const FrequencyBound& added, double increment) {
+  if (added == FrequencyBound{}) return increment;
   return neutral_increment(4.0 / (increment * increment) + added.omega_square, added.rate);
 }
 
@@ -96,8 +97,10 @@ void ElementGroup::record_increments(bool record) {
 StableIncrement ElementGroup::smallest_recorded_increment() const {
   StableIncrement smallest;
   for (std::int32_t element = 0; element < size_; ++element)
-    if (acts(element))
-      smallest.merge({adjusted(recorded_increments_[element], element), element});
+    if (acts(element)) {
+      const double scaled = (time_scale_.empty() ? 1.0 : time_scale_[element]) * recorded_increments_[element];
+      smallest.merge({added_bounds_.empty() ? scaled : allowing_for(added_bounds_[element], scaled), element});
+    }
   return smallest;
 }
 

@@ -196,10 +196,11 @@ class ElementGroup {
   [[gnu::noinline]] T adjusted(T increments, std::int32_t first) const {
     if (records_increments_)
       for (int lane = 0; lane < pack_size; ++lane) recorded_increments_[first + lane] = increments[lane];
-    return T([&](int lane) { return adjusted(double{increments[lane]}, first + lane); });
+    if (!time_scale_.empty()) increments *= T([&](int lane) { return time_scale_[first + lane]; });
+    if (added_bounds_.empty() || !added_to_pack_[first / pack_size]) return increments;
+    return T([&](int lane) { return allowing_for(added_bounds_[first + lane], double{increments[lane]}); });
   }
-  /// The increment of an element with its own mass alone, taken to its scaled mass and to what is added to it.
-  double adjusted(double increment, std::int32_t element) const;
+  static double allowing_for(const FrequencyBound& added, double increment);
 
   virtual int point_components(std::string_view variable) const = 0;
   virtual void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
@@ -231,6 +232,7 @@ class ElementGroup {
   }();
   std::vector<double> mass_scale_, time_scale_;  // padded; empty: all 1
   std::vector<FrequencyBound> added_bounds_;     // padded; empty: nothing is added
+  std::vector<bool> added_to_pack_;              // to any of its lanes
   bool records_increments_ = false;
   bool adjusts_increments_ = false;  // any of the three
   mutable std::vector<double> recorded_increments_;  // padded
