@@ -56,7 +56,8 @@ void describe_history(const Hdf5File& file, const std::string& step, Report& rep
       if (variable != "time") variables.push_back(variable);
     }
     const hsize_t rows = file.exists(group + "/time") ? file.extent(group + "/time")[0] : 0;
-    report.line("    history {:<24} {:>7} rows  {}", name, rows, joined(variables));
+    const std::string set = file.has_attribute(group, "set") ? file.text_attribute(group, "set") : "";
+    report.line("    history {:<24} {:<24} {:>7} rows  {}", name, set, rows, joined(variables));
   }
 }
 

@@ -84,7 +84,7 @@ class History::Row {
 
 History::Group& History::group(const std::string& name, std::size_t request) {
   auto found = std::find_if(groups_.begin(), groups_.end(), [&](const Group& g) { return g.name == name; });
-  if (found == groups_.end()) found = groups_.insert(groups_.end(), Group{name, {}, {}, {}});
+  if (found == groups_.end()) found = groups_.insert(groups_.end(), Group{name, {}, {}, {}, {}});
   if (std::find(found->requests.begin(), found->requests.end(), request) == found->requests.end()) {
     found->requests.push_back(request);
   }
@@ -101,6 +101,13 @@ struct History::Builder {
   static void add(Group& group, Channel channel) {
     const bool known = std::any_of(group.channels.begin(), group.channels.end(), [&](const Channel& c) { return c.name == channel.name; });
     if (!known) group.channels.push_back(std::move(channel));
+  }
+
+  template <class Set, class Members>
+  Group& group_of(const Set& set, const Members& members, const std::string& name, std::size_t request) const {
+    Group& group = history.group(name, request);
+    if (members.size() == 1 && group.set.empty()) group.set = set.name;
+    return group;
   }
 
   void complain(const std::string& variable, const std::string& where) const {
@@ -134,7 +141,7 @@ struct History::Builder {
         channel.columns = part.index < 0 ? components : 1;
         channel.source_columns = components;
         channel.place = local >= 0 && domain.owned[local] ? local : -1;
-        add(history.group(fmt::format("node_{}", history.model_->nodes.id[row]), request), std::move(channel));
+        add(group_of(set, set.nodes, fmt::format("node_{}", history.model_->nodes.id[row]), request), std::move(channel));
       }
     }
   }
@@ -143,13 +150,13 @@ struct History::Builder {
     const ElementSet& set = history.model_->element_sets[elements.set];
     for (const std::string& name : elements.variables) {
       bool known = false;
-      for (const ElementRef& element : set.elements) known |= add_element(element, name, request);
+      for (const ElementRef& element : set.elements) known |= add_element(set, element, name, request);
       if (!known) complain(name, "element set " + set.name);
     }
   }
 
   /// An element is on one rank only; all ranks have to agree on its channels. @return false if it has no such variable.
-  bool add_element(const ElementRef& element, const std::string& name, std::size_t request) const {
+  bool add_element(const ElementSet& set, const ElementRef& element, const std::string& name, std::size_t request) const {
     Channel channel{.kind = Kind::element, .name = name, .variable = name};
     Component part{name, -1};
     int components = 0;
@@ -172,7 +179,7 @@ struct History::Builder {
     channel.columns = part.index < 0 ? components : 1;
     channel.source_columns = components;
     const std::int64_t id = history.model_->elements[element.table].id[element.row];
-    add(history.group(fmt::format("element_{}", id), request), std::move(channel));
+    add(group_of(set, set.elements, fmt::format("element_{}", id), request), std::move(channel));
     return true;
   }
 
@@ -291,6 +298,7 @@ void History::flush(const Hdf5File& file) {
       file.append(path + "/" + channel.name, channel.columns, channel.rows);
       channel.rows.clear();
     }
+    if (!group.set.empty() && !file.has_attribute(path, "set")) file.set_attribute(path, "set", group.set);
     // The times come last: rows that they do not count were cut short.
     file.append(path + "/time", 1, group.times);
     group.times.clear();

@@ -1,4 +1,5 @@
-// History: rows of chosen quantities over time, buffered in memory and appended to /step_<k>/history/<GROUP>.
+// History: rows of chosen quantities over time, buffered in memory and appended to /step_<k>/history/<GROUP>. Where a set of one node or
+// element asks, the group's attribute `set` is that set's name.
 #pragma once
 
 #include <cstdint>
@@ -48,6 +49,7 @@ class History {
   };
   struct Group {
     std::string name;
+    std::string set;               // node or element set that asks for this node or element alone
     std::vector<std::size_t> requests;
     std::vector<Channel> channels;
     std::vector<double> times;     // root: buffered

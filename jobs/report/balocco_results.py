@@ -53,9 +53,13 @@ class Step:
         return list(self._group["history"]) if "history" in self._group else []
 
     def history(self, group):
-        """{"time": (n), variable: (n) or (n, c)} of a group such as "energy" or "node_9003"; {} if there is none."""
+        """{"time": (n), variable: (n) or (n, c)} of a group such as "energy" or "node_9003", or of the node or element alone in a set of
+        that name; {} if there is none."""
         path = f"history/{group}"
         if path not in self._group:
+            named = (name for name in self.histories() if text(self._group[f"history/{name}"].attrs.get("set", "")) == group)
+            path = f"history/{next(named, '')}"
+        if path not in self._group or path == "history/":
             return {}
         data = {name: dataset[:] for name, dataset in self._group[path].items()}
         rows = len(data["time"])

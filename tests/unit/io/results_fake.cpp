@@ -73,6 +73,7 @@ void add_steps(Model& model) {
   HistoryOutput history;
   history.time_interval = 0.5;
   history.nodes.push_back({.set = 0, .variables = {"U", "RF2"}});
+  history.nodes.push_back({.set = 1, .variables = {"U"}});
   history.elements.push_back({.set = 0, .variables = {"S", "S12"}});
   history.energies = {"ALLKE", "ETOTAL"};
   history.contact_pairs = {0};
@@ -99,6 +100,7 @@ Model model(std::int32_t cells) {
   const std::int32_t reference = 4 * (cells + 1);
   model.node_sets.push_back({"WATCHED", {0, 4 * cells + 2, reference}});
   model.element_sets.push_back({"PAIR", {{0, cells - 1}, {1, 0}}});
+  model.node_sets.push_back({"HUB", {reference}});
   model.materials.push_back({.name = "RUBBER", .density = 1.0});
   model.sections = {{.kind = Section::Kind::solid, .element_set = "A", .material = 0},
                     {.kind = Section::Kind::solid, .element_set = "B", .material = 0},

@@ -203,6 +203,9 @@ TEST_F(Results, HistoryHoldsRowsAtItsMarks) {
   const std::string group = "/step_2/history/node_" + std::to_string(model.nodes.id[node]) + "/";
   EXPECT_NEAR(file.read(group + "RF2")[7], 100.0 * node + 1 + 3.5, 1e-9);
   EXPECT_EQ(file.extent(group + "U"), (Extent{21, 3}));
+  EXPECT_FALSE(file.has_attribute(group, "set"));  // two more have it
+  const std::string hub = "/step_2/history/node_" + std::to_string(model.nodes.id[model.node_sets[1].nodes[0]]);
+  EXPECT_EQ(file.text_attribute(hub, "set"), "HUB");
   const auto stress = file.read("/step_2/history/element_10/S");
   EXPECT_EQ(file.read("/step_2/history/element_10/S12")[5], stress[6 * 5 + 3]);
   EXPECT_EQ(file.read("/step_2/history/contact_SKIN_ROAD/CFN")[3 * 7 + 2], times[7]);
@@ -379,7 +382,7 @@ TEST_F(Results, InfoTellsStepsFramesAndHistories) {
   run_job(world, directory);
   const std::string text = describe_results(directory + "/job.h5");
   for (const char* part : {"40 FAKE8", "B: solid, material RUBBER", "step_2 ROLL (explicit dynamics)", "8 frames", "completed",
-                           "contact_SKIN_ROAD", "21 rows"}) {
+                           "contact_SKIN_ROAD", "HUB", "21 rows"}) {
     EXPECT_NE(text.find(part), std::string::npos) << part << " is missing in\n" << text;
   }
   EXPECT_THROW(describe_results(directory + "/job.sta"), InputError);
