@@ -55,13 +55,6 @@ void write_parts(const CarSpec& spec, const BodyMesh& mesh, bool body, DeckText&
   write_welds(spec, mesh, body, deck);
 }
 
-void write_mass(const MountSpec& mount, const std::string& name, std::int64_t node, DeckText& deck) {
-  deck.line("*ELEMENT, TYPE=MASS, ELSET={}\n{}, {}\n*MASS, ELSET={}\n{:g}", name, deck.next_element(), node, name, mount.mass);
-  const auto own = box_inertia(mount.mass, mount.size);
-  deck.line("*ELEMENT, TYPE=ROTARYI, ELSET=I_{}\n{}, {}\n*ROTARY INERTIA, ELSET=I_{}\n{:.6g}, {:.6g}, {:.6g}", name,
-            deck.next_element(), node, name, own[0], own[1], own[2]);
-}
-
 void write_mount(const CarSpec& spec, const BodyMesh& mesh, const MountSpec& mount, std::set<int>& taken, DeckText& deck) {
   auto carriers = mesh.free_nodes(mount.parts, mount.place, mount.reach);
   std::erase_if(carriers, [&](int node) { return taken.contains(node); });
@@ -73,7 +66,7 @@ void write_mount(const CarSpec& spec, const BodyMesh& mesh, const MountSpec& mou
   taken.insert(carriers.begin(), carriers.end());
   const auto name = upper(mount.name);
   const auto node = deck.named_node(name, mount.place);
-  if (mount.mass > 0.0) write_mass(mount, name, node, deck);
+  if (mount.mass > 0.0) write_mass(name, node, mount.mass, mount.size, deck);
   write_coupling(name, node, carriers, deck);
 }
 
@@ -145,6 +138,13 @@ void write_mounts(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   for (const auto& mount : on_both_sides(spec.mounts)) write_mount(spec, mesh, mount, taken, deck);
   deck.chapter("MASSES: hung on free nodes of the parts around them");
   for (const auto& mass : on_both_sides(spec.masses)) write_mount(spec, mesh, mass, taken, deck);
+}
+
+void write_mass(const std::string& name, std::int64_t node, double mass, const std::array<double, 3>& size, DeckText& deck) {
+  deck.line("*ELEMENT, TYPE=MASS, ELSET=M_{}\n{}, {}\n*MASS, ELSET=M_{}\n{:g}", name, deck.next_element(), node, name, mass);
+  const auto own = box_inertia(mass, size);
+  deck.line("*ELEMENT, TYPE=ROTARYI, ELSET=I_{}\n{}, {}\n*ROTARY INERTIA, ELSET=I_{}\n{:.6g}, {:.6g}, {:.6g}", name,
+            deck.next_element(), node, name, own[0], own[1], own[2]);
 }
 
 void write_coupling(const std::string& name, std::int64_t node, const std::vector<int>& carriers, DeckText& deck) {

@@ -36,6 +36,8 @@ void write_body(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck);
 /// Masses and mounts; each becomes a node set of one node with its name.
 void write_mounts(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck);
 void write_materials(const CarSpec& spec, DeckText& deck);
+/// A box of uniform mass on a node: elements M_NAME, and I_NAME for its inertia.
+void write_mass(const std::string& name, std::int64_t node, double mass, const std::array<double, 3>& size, DeckText& deck);
 /// A coupling that spreads what acts on the named node over the mesh's nodes.
 void write_coupling(const std::string& name, std::int64_t node, const std::vector<int>& carriers, DeckText& deck);
 

@@ -11,10 +11,7 @@ namespace balocco::car {
 void LinkageText::rigid(const RigidPart& part, const std::vector<std::int64_t>& points) {
   const auto& name = part.name;
   const auto node = deck_.named_node(name, part.centre);
-  const auto own = box_inertia(part.mass, part.size);
-  deck_.line("*ELEMENT, TYPE=MASS, ELSET=M_{}\n{}, {}\n*MASS, ELSET=M_{}\n{:g}", name, deck_.next_element(), node, name, part.mass);
-  deck_.line("*ELEMENT, TYPE=ROTARYI, ELSET=I_{}\n{}, {}\n*ROTARY INERTIA, ELSET=I_{}\n{:.6g}, {:.6g}, {:.6g}", name,
-             deck_.next_element(), node, name, own[0], own[1], own[2]);
+  write_mass(name, node, part.mass, part.size, deck_);
   const auto surface = part.surface.empty() ? std::string() : fmt::format(", ANALYTICAL SURFACE={}", part.surface);
   if (points.empty()) return deck_.line("*RIGID BODY, REF NODE={}{}", node, surface);
   deck_.line("*NSET, NSET=P_{}", name);

@@ -12,7 +12,8 @@
 namespace balocco::car {
 namespace {
 
-constexpr double gravity = 9.81e-3;  // mm/ms2
+constexpr double gravity = 9.81e-3;                           // mm/ms2
+constexpr std::array<double, 3> size_of_seat{60.0, 60.0, 60.0};  // mm
 
 /// The left or the right side: where things are there, and how they are called.
 struct Side {
@@ -71,14 +72,20 @@ Vector hard_point(const CarSpec& spec, const Vector& point) {
   return {point[0], point[1], spec.profile.wheel_height + point[2]};
 }
 
-/// Feet, arms, rack and anti-roll bar on the subframe: each is carried by the free nodes of its sheet that lie closest to it.
-void write_subframe(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
+/// Of the left side.
+Vector place_of_mount(const CarSpec& spec, const std::string& name) {
+  return std::ranges::find(spec.mounts, name, &MountSpec::name)->place;
+}
+
+/// What bolts to the subframe: feet, arms, rack and anti-roll bar.
+struct Seat {
+  std::string name;
+  Vector place;
+  std::vector<int> carriers;  // nodes of its sheet
+};
+
+std::vector<Seat> seats_of_subframe(const CarSpec& spec) {
   const auto& front = spec.chassis.front;
-  struct Seat {
-    std::string name;
-    Vector place;
-    std::vector<int> carriers;
-  };
   std::vector<Seat> seats;
   for (const auto& side : sides) {
     for (const auto& [name, place] :
@@ -86,11 +93,17 @@ void write_subframe(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
           std::pair{"SUBFRAME_RACK_", front.rod_inner}})
       seats.push_back({std::string(name) + side.name, side(hard_point(spec, place)), {}});
     seats.push_back({std::string("SUBFRAME_BAR_") + side.name, side(bar_seat(spec)), {}});
-    for (const auto* end : {"FRONT_", "REAR_"}) {
-      const auto foot = std::string(end) + side.name;
-      seats.push_back({"SUBFRAME_FOOT_" + foot, deck.place_of("SUBFRAME_MOUNT_" + foot), {}});
-    }
+    for (const auto& [name, mount] : {std::pair{"SUBFRAME_FOOT_FRONT_", "subframe_mount_front"},
+                                      std::pair{"SUBFRAME_FOOT_REAR_", "subframe_mount_rear"}})
+      seats.push_back({std::string(name) + side.name, side(place_of_mount(spec, mount)), {}});
   }
+  return seats;
+}
+
+/// Each seat is carried by the free nodes of the sheet that lie closest to it.
+void write_subframe(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
+  const auto& front = spec.chassis.front;
+  auto seats = seats_of_subframe(spec);
   for (const int node : mesh.free_nodes({"SUBFRAME_UPPER", "SUBFRAME_LOWER"}, {}, 1e9)) {
     const auto away = [&](const Seat& seat) { return length(seat.place - mesh.nodes()[node]); };
     auto& seat = *std::ranges::min_element(seats, {}, away);
@@ -101,7 +114,9 @@ void write_subframe(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
       throw InputError(fmt::format("{}:1: error: [front.subframe] reach: {} nodes of its sheet carry {}, and three are needed; "
                                    "reach farther, or lead its line nearer",
                                    spec.file_name, seat.carriers.size(), seat.name));
-    write_coupling(seat.name, deck.named_node(seat.name, seat.place), seat.carriers, deck);
+    const auto node = deck.named_node(seat.name, seat.place);
+    write_coupling(seat.name, node, seat.carriers, deck);
+    write_mass(seat.name, node, front.subframe.seat_mass, size_of_seat, deck);
   }
 }
 
@@ -153,6 +168,7 @@ Inertia sprung_mass(const CarSpec& spec, const BodyMesh& mesh) {
   for (const auto& mass : on_both_sides(spec.masses)) sprung.add_box(mass.mass, mass.place, mass.size);
   const auto& block = spec.chassis.engine.block;
   sprung.add_box(block.mass, block.centre, block.size);
+  for (const auto& seat : seats_of_subframe(spec)) sprung.add_box(spec.chassis.front.subframe.seat_mass, seat.place, size_of_seat);
   for (const auto& side : sides) {
     sprung.add(spec.chassis.front.rod_mass, side(spec.body.strut_top));
     sprung.add(0.5 * bar_mass(spec), side(bar_seat(spec)));

@@ -121,6 +121,7 @@ void read_front(SpecTable& top, const ChassisPlace& place_of, FrontSpec& front) 
   auto subframe = table.table("subframe");
   front.subframe.line = read_half(subframe, "line", 4, true);
   front.subframe.reach = subframe.number("reach", Bounds::positive("mm"));
+  front.subframe.seat_mass = subframe.number("seat_mass", Bounds::positive("g"));
   subframe.refuse_unknown();
   read_bar(table, place_of.materials, front.bar);
   front.arm = read_part(table, "arm");

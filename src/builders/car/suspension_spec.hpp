@@ -32,6 +32,7 @@ struct BushingSpec {
 struct SubframeSpec {
   std::vector<Vector> line;  // of the left half, where the flanges lie; in the car
   double reach = 0.0;        // mm around mounts, arms and rack within which its sheet carries them
+  double seat_mass = 0.0;    // g, of the bracket and the bushing's sleeve at each of them
 };
 
 /// A bar that resists roll, of the left half: from the middle by its bushing on the subframe to where its link hangs.
