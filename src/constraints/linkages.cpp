@@ -100,6 +100,49 @@ std::vector<std::size_t> entangled_rows(const std::vector<SparseRow>& rows) {
   return rest;
 }
 
+/// The same rows in parts that share no columns, each in order.
+std::vector<std::vector<std::size_t>> parts_of(const std::vector<SparseRow>& rows, const std::vector<std::size_t>& chosen) {
+  Classes classes(chosen.size());
+  std::unordered_map<std::int64_t, std::int32_t> first_with;
+  for (std::size_t i = 0; i < chosen.size(); ++i)
+    for (const auto& [column, value] : rows[chosen[i]])
+      if (value != 0.0)
+        classes.join(first_with.try_emplace(column, static_cast<std::int32_t>(i)).first->second, static_cast<std::int32_t>(i));
+  std::unordered_map<std::int32_t, std::size_t> part_of;
+  std::vector<std::vector<std::size_t>> parts;
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    const auto part = part_of.try_emplace(classes.find(static_cast<std::int32_t>(i)), parts.size()).first->second;
+    parts.resize(std::max(parts.size(), part + 1));
+    parts[part].push_back(chosen[i]);
+  }
+  return parts;
+}
+
+/// By Gram and Schmidt, twice, as rows may be nearly alike.
+void find_dependent(const std::vector<SparseRow>& rows, const std::vector<std::size_t>& together, std::vector<bool>& dependent) {
+  constexpr double tolerance = 1e-9;
+  std::unordered_map<std::int64_t, std::size_t> place;
+  for (const auto i : together)
+    for (const auto& [column, value] : rows[i]) place.try_emplace(column, place.size());
+  std::vector<std::vector<double>> basis;  // orthonormal
+  for (const auto i : together) {
+    std::vector<double> row(place.size(), 0.0);
+    for (const auto& [column, value] : rows[i]) row[place[column]] += value;
+    const auto norm = [&] { return std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0)); };
+    const double before = norm();
+    for (int pass = 0; pass < 2; ++pass)
+      for (const auto& other : basis) {
+        const double product = std::inner_product(row.begin(), row.end(), other.begin(), 0.0);
+        for (std::size_t k = 0; k < row.size(); ++k) row[k] -= product * other[k];
+      }
+    const double after = norm();
+    dependent[i] = !(after > tolerance * before);
+    if (dependent[i]) continue;
+    for (double& value : row) value /= after;
+    basis.push_back(std::move(row));
+  }
+}
+
 }  // namespace
 
 std::vector<std::int32_t> constrained_nodes(const ConstraintKind& kind) { return std::visit(NodesOf{}, kind); }
@@ -131,29 +174,8 @@ std::vector<Linkage> find_linkages(const Model& model) {
 }
 
 std::vector<bool> dependent_rows(const std::vector<SparseRow>& rows) {
-  constexpr double tolerance = 1e-9;
   std::vector<bool> dependent(rows.size(), false);
-  const auto entangled = entangled_rows(rows);
-  std::unordered_map<std::int64_t, std::size_t> place;
-  for (const auto i : entangled)
-    for (const auto& [column, value] : rows[i]) place.try_emplace(column, place.size());
-  std::vector<std::vector<double>> basis;  // orthonormal
-  for (const auto i : entangled) {
-    std::vector<double> row(place.size(), 0.0);
-    for (const auto& [column, value] : rows[i]) row[place[column]] += value;
-    const auto norm = [&] { return std::sqrt(std::inner_product(row.begin(), row.end(), row.begin(), 0.0)); };
-    const double before = norm();
-    for (int pass = 0; pass < 2; ++pass)
-      for (const auto& other : basis) {
-        const double product = std::inner_product(row.begin(), row.end(), other.begin(), 0.0);
-        for (std::size_t k = 0; k < row.size(); ++k) row[k] -= product * other[k];
-      }
-    const double after = norm();
-    dependent[i] = !(after > tolerance * before);
-    if (dependent[i]) continue;
-    for (double& value : row) value /= after;
-    basis.push_back(std::move(row));
-  }
+  for (const auto& together : parts_of(rows, entangled_rows(rows))) find_dependent(rows, together, dependent);
   return dependent;
 }
 

@@ -247,7 +247,7 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   spec.mounts = read_mounts(top, "mount", false);
   ChassisPlace place{.materials = {}, .strut_top = spec.body.strut_top, .wheel_height = spec.profile.wheel_height};
   for (const auto& material : spec.materials) place.materials.push_back(material.name);
-  read_chassis(top, choices.obstacle, place, spec.chassis);
+  read_chassis(top, {choices.obstacle, spec.fidelity}, place, spec.chassis);
   check_mounts(top, spec);
   top.refuse_unknown();
   faults.throw_if_any();

@@ -161,16 +161,17 @@ void read_engine(SpecTable& top, EngineSpec& engine) {
   table.refuse_unknown();
 }
 
-void read_drive(SpecTable& top, const std::string& obstacle, DriveSpec& drive) {
+void read_drive(SpecTable& top, const CarChoices& choices, DriveSpec& drive) {
   auto table = top.table("drive");
   drive.obstacle = table.text("obstacle", {"comfort", "pothole"});
-  if (!obstacle.empty()) drive.obstacle = obstacle;
+  if (!choices.obstacle.empty()) drive.obstacle = choices.obstacle;
   for (const auto* name : {"comfort", "pothole"}) {
     auto course = table.table(name);
     const double speed = course.number("speed", Bounds::positive("mm/ms")),
-                 duration = course.number("duration", Bounds::positive("ms"));
+                 duration = course.number("duration", Bounds::positive("ms")),
+                 complete = course.number("complete_duration", Bounds::positive("ms"), duration);
     course.refuse_unknown();
-    if (drive.obstacle == name) std::tie(drive.speed, drive.duration) = std::pair(speed, duration);
+    if (drive.obstacle == name) std::tie(drive.speed, drive.duration) = std::pair(speed, choices.fidelity == "complete" ? complete : duration);
   }
   drive.frames = table.integer("frames", 1, 100000);
   drive.history_interval = table.number("history_interval", Bounds::positive("ms"));
@@ -180,12 +181,12 @@ void read_drive(SpecTable& top, const std::string& obstacle, DriveSpec& drive) {
 
 }  // namespace
 
-void read_chassis(SpecTable& top, const std::string& obstacle, const ChassisPlace& place, ChassisSpec& chassis) {
+void read_chassis(SpecTable& top, const CarChoices& choices, const ChassisPlace& place, ChassisSpec& chassis) {
   read_front(top, place, chassis.front);
   read_rear(top, chassis.rear);
   read_engine(top, chassis.engine);
   read_road(top, chassis.road);
-  read_drive(top, obstacle, chassis.drive);
+  read_drive(top, choices, chassis.drive);
   if (chassis.drive.obstacle != "comfort") chassis.road.obstacle_height = 0.0;
   if (chassis.drive.obstacle != "pothole") chassis.road.pothole.depth = 0.0;
   if (chassis.drive.speed * chassis.drive.duration >= chassis.road.ahead)

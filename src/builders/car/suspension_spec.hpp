@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "builders/car/car_choices.hpp"
 #include "builders/car/linkage_text.hpp"
 #include "builders/tyre_spec.hpp"
 
@@ -97,7 +98,7 @@ struct ChassisPlace {
   double wheel_height = 0.0;           // mm
 };
 
-/// `obstacle` overrides the description's; empty: as described.
-void read_chassis(SpecTable& top, const std::string& obstacle, const ChassisPlace& place, ChassisSpec& chassis);
+/// `choices`: the fidelity of the car, and an obstacle that overrides the description's.
+void read_chassis(SpecTable& top, const CarChoices& choices, const ChassisPlace& place, ChassisSpec& chassis);
 
 }  // namespace balocco::car
