@@ -27,31 +27,35 @@ void add(double* vector, double factor, const Point& direction) {
   for (int c = 0; c < 3; ++c) vector[c] += factor * direction[c];
 }
 
+double value_after(double delay, const Model& model, const Step& step, const BoundaryCondition& condition, const Instant& instant) {
+  return condition.magnitude *
+         amplitude_factor(model, step, condition.amplitude, instant.step_time + delay, instant.total_time + delay);
+}
+
 }  // namespace
 
 double prescribed_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
                            const Instant& instant, const MotionComponent& motion) {
-  const auto value_after = [&](double delay) {
-    return condition.magnitude *
-           amplitude_factor(model, step, condition.amplitude, instant.step_time + delay, instant.total_time + delay);
-  };
+  const auto value = [&](double delay) { return value_after(delay, model, step, condition, instant); };
   switch (condition.kind) {
     case Kind::velocity:
-      return value_after(0.5 * instant.next);
+      return value(0.5 * instant.next);
     case Kind::acceleration:
-      return motion.velocity + instant.average() * value_after(0.0);
+      return motion.velocity + instant.average() * value(0.0);
     default:
       if (holds(model, condition)) return 0.0;
       if (instant.next == 0.0) return motion.velocity;  // the step is over: no course to follow
-      return (value_after(instant.next) - motion.displacement) / instant.next;
+      return (value(instant.next) - motion.displacement) / instant.next;
   }
 }
 
 double prescribed_initial_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
                                    const Instant& instant, const MotionComponent& motion) {
   const Instant now{instant.step_time, instant.total_time, 0.0, 0.0};
-  if (condition.kind == Kind::displacement && holds(model, condition)) return 0.0;
-  return prescribed_velocity(model, step, condition, now, motion);
+  if (condition.kind != Kind::displacement) return prescribed_velocity(model, step, condition, now, motion);
+  if (holds(model, condition)) return 0.0;
+  const double shortly = 1e-6 * step.duration();
+  return (value_after(shortly, model, step, condition, now) - value_after(0.0, model, step, condition, now)) / shortly;
 }
 
 void refuse_jump(const Model& model, const BoundaryCondition& condition, double displacement) {

@@ -20,7 +20,8 @@ struct MotionComponent {
 double prescribed_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
                            const Instant& instant, const MotionComponent& motion);
 
-/// Velocity at the start of the first dynamic step, in which boundary conditions override initial conditions.
+/// Velocity at the start of the first dynamic step, in which boundary conditions override initial conditions; of a displacement the slope
+/// of its course.
 double prescribed_initial_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
                                    const Instant& instant, const MotionComponent& motion);
 

@@ -271,7 +271,6 @@ void ExplicitStep::add_soft_contact() {
 
 void ExplicitStep::add_stiff_contact() {
   timers.measure(Phase::contact, [&] {
-    constraints_.find_velocities(analysis_, step_, instant());
     contact_.add_stiff_forces(analysis_, instant(), force_.data());
   });
 }
@@ -322,6 +321,7 @@ void ExplicitStep::choose_increment() {
     attention_ = agreed[1] > 0.0;
     const double limit = limit_beside(-agreed[0]);
     next_increment_ = control_.next_increment(state, last_increment_, limit);
+    constraints_.find_velocities(analysis_, step_, instant());
   });
 }
 

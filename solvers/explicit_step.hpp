@@ -53,7 +53,7 @@ class ExplicitStep {
   void add_soft_contact();
   void finish_halo();
   void add_damping();
-  /// Agrees over all ranks on the next increment and on whether the observer wants to be called.
+  /// Agrees over all ranks on the next increment and on whether the observer wants to be called; finds what is prescribed over it.
   /// @throws AnalysisError where the run has blown up or the increment collapsed.
   void choose_increment();
   /// Behind choose_increment: springs that answer to the motion over the next increment.

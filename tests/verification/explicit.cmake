@@ -8,7 +8,8 @@ function(explicit_case script case)
   endforeach()
 endfunction()
 
-foreach(case truss_stability rod_impact free_flight spun_block pendulum dzhanibekov dzhanibekov_node skid sliding_block chattering_block resting_pair resting_block driven_block)
+foreach(case truss_stability rod_impact free_flight spun_block pendulum dzhanibekov dzhanibekov_node skid sliding_block chattering_block resting_pair resting_block driven_block
+             first_increment)
   explicit_case(explicit_cases ${case} 1 2)
 endforeach()
 foreach(case bouncing_plate pressed_block rubbing_block lifted_block velocities_set_once lost_energy blown_up_at_the_end past_the_end below_the_ground rigid_part)

@@ -427,8 +427,50 @@ def driven_block(job):
     check_energy(job, 1e-3)
 
 
+FIRST_INCREMENT = """*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+*ELEMENT, TYPE=MASS, ELSET=M
+1, 1
+2, 2
+*MASS, ELSET=M
+2.
+*AMPLITUDE, NAME=RAMP
+0., 0., 1., 1.
+*BOUNDARY
+1, 2, 3
+2, 2, 3
+*STEP
+*DYNAMIC, EXPLICIT, DIRECT USER CONTROL
+DT, 0.5
+*BOUNDARY, TYPE=DISPLACEMENT, AMPLITUDE=RAMP
+1, 1, 1, 0.4
+*BOUNDARY, TYPE=VELOCITY, AMPLITUDE=RAMP
+2, 1, 1, 0.4
+*OUTPUT, HISTORY, FREQUENCY=1
+*NODE OUTPUT, NSET=ENDS
+U1, V1
+*ENERGY OUTPUT
+ALLKE, ALLIE, ALLWK, ETOTAL
+*END STEP
+"""
+
+
+def first_increment(job):
+    """What is prescribed holds from the first increment on, also where it is the only one; a displacement starts as fast as it goes."""
+    deck = FIRST_INCREMENT.replace("*ELEMENT", "*NSET, NSET=ENDS\n1, 2\n*ELEMENT", 1)
+    for increments in (1, 5):
+        job.run(deck.replace("DT", repr(0.5 / increments), 1))
+        time, ramp = job.history("node_1", "U1")
+        check("increments", len(time), increments + 1, 0.0)
+        check("displacement along its course", np.abs(ramp - 0.4 * time).max(), 0.0, 1e-12)
+        check("speed of a course", np.abs(job.history("node_1", "V1")[1] - 0.4).max(), 0.0, 1e-9)
+        check("way of a growing velocity", np.abs(job.history("node_2", "U1")[1] - 0.2 * time**2).max(), 0.0, 1e-12)
+        check_energy(job, 1e-9)
+
+
 CASES = {case.__name__: case for case in (truss_stability, rod_impact, free_flight, spun_block, pendulum, dzhanibekov, dzhanibekov_node, skid,
-                                          sliding_block, chattering_block, resting_pair, resting_block, driven_block)}
+                                          sliding_block, chattering_block, resting_pair, resting_block, driven_block, first_increment)}
 
 if __name__ == "__main__":
     case, balocco, ranks, folder = sys.argv[1:]
