@@ -37,10 +37,10 @@ bool watched() {
   return terminal;
 }
 
-/// Change of ETOTAL since the step started, in percent of the largest energy of the step.
-double energy_error(const State& state, const EnergyBalance& energies) {
-  const double scale = std::max(state.largest_energy, energies.magnitude());
-  return scale > 0.0 ? 100.0 * (energies.total - state.energy_at_start) / scale : 0.0;
+/// Change of ETOTAL since the step started, in percent of the largest energy of the step; 0 where it is what rounding makes.
+double energy_error(const State& state, const EnergyBalance& energies, double negligible) {
+  const double change = energies.total - state.energy_at_start;
+  return std::abs(change) > negligible ? 100.0 * change / std::max(state.largest_energy, energies.magnitude()) : 0.0;
 }
 
 }  // namespace
@@ -132,7 +132,7 @@ void Status::explicit_line(const Progress& progress, const State& state, const E
                             "{:>9.4f} {:>11.4g} {:>9.1f} {:>9.0f} {:>10.4g}",
                             progress.increment, progress.step_time, progress.total_time, progress.time_increment,
                             progress.critical_element, energies.kinetic, energies.internal, energies.hourglass, energies.contact,
-                            energies.work, energies.total, energy_error(state, energies), progress.largest_penetration, seconds(),
+                            energies.work, energies.total, energy_error(state, energies, progress.negligible_energy), progress.largest_penetration, seconds(),
                             view.remaining, view.elements_per_second) +
                     (can_fail_ ? fmt::format(" {:>9}", progress.deleted_elements) : "") +
                     (scales_masses_ ? fmt::format(" {:>12.5g}", 100.0 * progress.added_mass) : ""));

@@ -34,7 +34,7 @@ struct EnergyBalance {
   double total = 0.0;       // ETOTAL
 
   /// What an error of the balance is measured by: the energy that is, or has come, into the model.
-  double magnitude() const { return std::max(kinetic + std::abs(internal) + viscous + friction, std::abs(work)); }
+  double magnitude() const { return std::max(std::abs(kinetic) + std::abs(internal) + viscous + friction, std::abs(work)); }
 };
 
 /// Resultant of one contact pair on the slave surface, global directions.
@@ -76,6 +76,7 @@ struct Progress {
   double largest_penetration = 0.0;    // of all active contact pairs (explicit)
   std::int64_t deleted_elements = 0;   // by *SHEAR FAILURE, since the analysis began (explicit)
   double added_mass = 0.0;             // by mass scaling, as a part of the mass of the model (explicit)
+  double negligible_energy = 0.0;      // what rounding makes (explicit)
   bool step_finished = false;
 };
 

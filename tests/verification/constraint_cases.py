@@ -389,6 +389,36 @@ def welded_sheets(run):
     check("forces of all welds against those on the sheets", np.abs(sum_of_welds[:3] - forces(job)).max() / force(job), 0.0, 1e-9)
 
 
+def hanging_at_rest(run):
+    """What hangs at rest makes no energy but that of rounding, of which no error is told and no run fails."""
+    for number, along in enumerate(((0.3, -0.8, 0.5), (-0.1, -0.7, -0.9), (0.6, 0.2, -1.3))):
+        along = np.array(along) / np.linalg.norm(along)
+        below = ", ".join(repr(float(x)) for x in np.array((0.3, 1.7, -0.4)) + 1.3 * along)
+        for joint in ("LINK", "BEAM"):
+            job = run(f"""*NODE
+1, 0.3, 1.7, -0.4
+2, {below}
+*ELEMENT, TYPE=MASS, ELSET=M
+1, 1
+2, 2
+*MASS, ELSET=M
+2.
+*ELEMENT, TYPE=ROTARYI, ELSET=I
+3, 1
+4, 2
+*ROTARY INERTIA, ELSET=I
+0.1, 0.1, 0.1
+*MPC
+{joint}, 2, 1
+*BOUNDARY
+1, 1, 3
+""" + explicit_step(1e-4, 0.11, "*DLOAD\n, GRAV, 9.81, " + ", ".join(repr(float(x)) for x in along) + "\n", ""), 1 + number % 2)
+            lines = [line.split() for line in (job.folder / f"{job.name}.sta").read_text().splitlines()]
+            errors = [float(line[11]) for line in lines if line and line[0].isdigit()]
+            check(f"{joint}: lines of status", float(len(errors) > 5), 1.0, 0.0)
+            check(f"{joint}: errors of the balance", max(abs(error) for error in errors), 0.0, 0.0)
+
+
 def rest_with_constraints(run):
     """A loaded equilibrium with couplings, an equation and a bushing goes on explicitly at rest."""
     for ranks, kind in ((1, KINEMATIC), (2, DISTRIBUTING)):
@@ -510,4 +540,4 @@ HELD, 1, 6
 
 if __name__ == "__main__":
     run_case({case.__name__: case for case in (masses_on_links, falling_chain, four_bar, universal_joint, coupled_tip, turned_coupling, equations,
-                                               tied_blocks, welded_sheets, rest_with_constraints, same_bits, springs_on_an_arm)})
+                                               tied_blocks, welded_sheets, rest_with_constraints, hanging_at_rest, same_bits, springs_on_an_arm)})
