@@ -74,6 +74,21 @@ NodalRestraints nodal_restraints(const Analysis& analysis) {
   return {summed(analysis, analysis.domain.size(), false), summed(analysis, analysis.domain.turning, true)};
 }
 
+void place_restraints(Analysis& analysis) {
+  auto& state = analysis.current;
+  for (std::size_t index = 0; index < analysis.element_groups.size(); ++index)
+    analysis.element_groups[index]->set_reach(state.motion(), state.element_history[index]);
+}
+
+void replace_restraints(const Analysis& analysis) {
+  for (std::size_t index = 0; index < analysis.element_groups.size(); ++index)
+    analysis.element_groups[index]->restore_reach(analysis.current.element_history[index]);
+}
+
+bool restraints_are_left(const Analysis& analysis) {
+  return std::ranges::any_of(analysis.element_groups, [&](const auto& group) { return group->is_beyond_reach(analysis.current.motion()); });
+}
+
 void refuse_massless_restraints(const Analysis& analysis, const Step& step, const ExplicitLinkages& linkages) {
   const auto size = static_cast<std::size_t>(analysis.domain.size());
   std::vector<bool> held(size), held_rotation(size);

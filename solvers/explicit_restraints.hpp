@@ -34,6 +34,12 @@ std::int32_t moving_body(const Analysis& analysis, std::int32_t node);
 /// Of local nodes: inverse of the smallest rotary inertia of a node that turns freely; 0 if it has none.
 std::vector<double> rotary_mobilities(const Analysis& analysis);
 
+/// Makes restraints hold about where nodes are now; or where the state says that they do.
+void place_restraints(Analysis& analysis);
+void replace_restraints(const Analysis& analysis);
+/// Whether an element of this rank has left where they hold.
+bool restraints_are_left(const Analysis& analysis);
+
 /// Refuses nodes that a spring or dashpot would have to move without a mass, or turn without a rotary inertia. @throws InputError
 void refuse_massless_restraints(const Analysis& analysis, const Step& step, const ExplicitLinkages& linkages);
 

@@ -65,7 +65,9 @@ RestraintBound bound_of_step(Analysis& analysis, const NodalRestraints& restrain
 
 /// Attachments come first of all: what follows depends on who carries which node.
 const Step& started(Analysis& analysis, const Step& step) {
-  if (analysis.current.increment == 0) analysis.start_step(step);
+  const bool afresh = analysis.current.increment == 0;
+  if (afresh) analysis.start_step(step);
+  afresh ? place_restraints(analysis) : replace_restraints(analysis);
   return step;
 }
 
@@ -93,10 +95,8 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       moments_(analysis.model.rigid_bodies.size()) {
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
   force_.assign(4 * (nodes + 1), 0.0);
-  for (std::size_t node = 0; node <= nodes; ++node) force_[4 * node + 3] = scale_.rounding_constant[node];
   if (analysis.domain.turning > 0) moment_.assign(force_.size(), 0.0);
-  for (std::size_t node = 0; node < scale_.moment_constant.size(); ++node)
-    moment_[4 * node + 3] = scale_.moment_constant[node];
+  set_rounding_constants();
   const bool damped = std::any_of(analysis.scaled_inertia().damping.begin(), analysis.scaled_inertia().damping.end(),
                                   [](double c) { return c > 0.0; });
   if (analysis.communicator.any(damped)) {
@@ -314,11 +314,13 @@ void ExplicitStep::choose_increment() {
   timers.measure(Phase::increment, [&] {
     auto& state = analysis_.current;
     const bool attention = observer_.next_due() <= state.step_time || state.increment % regular_increments == 0;
-    std::array<double, 3> agreed{-stability_.increment, attention ? 1.0 : 0.0, failure_ ? 1.0 : 0.0};
+    std::array<double, 4> agreed{-stability_.increment, attention ? 1.0 : 0.0, failure_ ? 1.0 : 0.0,
+                                 restraints_are_left(analysis_) ? 1.0 : 0.0};
     analysis_.communicator.maximum(std::span<double>(agreed));
     if (agreed[2] > 0.0) report_failure();
     if (-agreed[0] < collapsing * analysis_.undeformed_increment) report_collapse();
     attention_ = agreed[1] > 0.0;
+    if (agreed[3] > 0.0) renew_restraints();
     const double limit = limit_beside(-agreed[0]);
     next_increment_ = control_.next_increment(state, last_increment_, limit);
     constraints_.find_velocities(analysis_, step_, instant());

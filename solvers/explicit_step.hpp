@@ -84,6 +84,10 @@ class ExplicitStep {
   /// Of any rank.
   RigidDynamics::Uses uses_of_nodes() const;
   void list_drifting_nodes();
+  /// Of forces and moments, external ones too.
+  void set_rounding_constants();
+  /// Where connectors have left what their bounds hold for. Collective.
+  void renew_restraints();
   void look_at_mass_scaling(double previous_time);
   /// Tells elements what springs and contact add to them.
   void tell_added_bounds();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "explicit_restraint_bound.hpp"
 #include "explicit_step.hpp"
 #include "model/diagnostics.hpp"
 #include "step_driver.hpp"
@@ -72,6 +73,23 @@ RigidDynamics::Uses ExplicitStep::uses_of_nodes() const {
   for (const auto index : analysis_.local_constraints)
     for (const auto row : analysis_.constraints[index]->nodes()) uses.asked[domain.local_node[row]] = true;
   return uses;
+}
+
+void ExplicitStep::set_rounding_constants() {
+  const auto set = [](std::vector<double>& nodal, const std::vector<double>& constants) {
+    for (std::size_t node = 0; node < constants.size() && !nodal.empty(); ++node) nodal[4 * node + 3] = constants[node];
+  };
+  for (auto* forces : {&force_, &external_force_}) set(*forces, scale_.rounding_constant);
+  for (auto* moments : {&moment_, &external_moment_}) set(*moments, scale_.moment_constant);
+}
+
+void ExplicitStep::renew_restraints() {
+  place_restraints(analysis_);
+  restraints_ = nodal_restraints(analysis_);
+  restraint_bound_ = find_restraint_bound(analysis_, restraints_, bodies_, linkages_);
+  tell_added_bounds();
+  scale_ = force_scale(analysis_, step_, restraints_);
+  set_rounding_constants();
 }
 
 /// Runs of nodes that turn, but for those that have their orientation from a body.

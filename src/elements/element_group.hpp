@@ -158,6 +158,11 @@ class ElementGroup {
   virtual Restraint restraint(std::int32_t element) const;
   /// The same for rotations of its nodes, and moments.
   virtual Restraint rotary_restraint(std::int32_t element) const;
+  /// Restraints that depend on where nodes are hold within a reach, which the history keeps: sets it about where they are, or takes it back
+  /// from there; and whether an acting element has left it.
+  virtual void set_reach(const NodalMotion&, std::span<double>) {}
+  virtual void restore_reach(std::span<const double>) {}
+  virtual bool is_beyond_reach(const NodalMotion&) const { return false; }
 
   virtual ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const = 0;
   /// The same bits for as many lanes from `first` on, a whole pack's first lane, as `of_lanes` has room for: whole packs, padded

@@ -5,7 +5,7 @@ import math
 import numpy as np
 
 from constraint_cases import G, GRAVITY, deck_of_rods, explicit_step, history, integrate, rods
-from explicit_cases import check, check_energy, run_case
+from explicit_cases import Job, check, check_energy, run_case
 
 
 def connector_output(elements="JOINT", interval=None):
@@ -222,5 +222,64 @@ def damped_strut(run):
         check_energy(job, 1e-2)
 
 
+def thrown_off(run):
+    """A CARTESIAN spring along one axis, whose node is thrown off along a free one: the arm of its force grows from 1 mm to 3 m, and the
+    increments shrink with it. Momentum, energy and angular momentum stay, and so do the bits when the job goes on from a checkpoint."""
+    deck = """*NODE
+1, 0., 0., 0.
+2, 0.001, 0., 0.
+*NSET, NSET=BOTH
+1, 2
+*ELEMENT, TYPE=MASS, ELSET=M
+1, 1
+2, 2
+*MASS, ELSET=M
+1.
+*ELEMENT, TYPE=ROTARYI, ELSET=I
+3, 1
+4, 2
+*ROTARY INERTIA, ELSET=I
+0.01, 0.01, 0.01
+*ELEMENT, TYPE=CONN3D2, ELSET=JOINT
+5, 1, 2
+*CONNECTOR BEHAVIOR, NAME=B
+*CONNECTOR ELASTICITY, COMPONENT=1
+1e4
+*CONNECTOR SECTION, ELSET=JOINT, BEHAVIOR=B
+CARTESIAN
+*INITIAL CONDITIONS, TYPE=VELOCITY
+2, 2, 10.
+2, 1, 0.1
+*STEP
+*DYNAMIC, EXPLICIT
+, 0.3
+*OUTPUT, HISTORY, TIME INTERVAL=0.01
+*NODE OUTPUT, NSET=BOTH
+U, V, VR
+*ENERGY OUTPUT
+ALLKE, ALLIE, ALLWK, ETOTAL
+*RESTART, WRITE, NUMBER INTERVAL=3
+*END STEP
+"""
+    jobs = [run(deck, ranks) for ranks in (1, 2)]
+    job = jobs[0]
+    check_energy(job, 1e-2)
+    u, v, spin = ([job.history(f"node_{node}", variable)[1] for node in (1, 2)] for variable in ("U", "V", "VR"))
+    check("distance", float(np.linalg.norm(u[1][-1] - u[0][-1]) > 2.0), 1.0, 0.0)
+    check("momentum", np.abs(v[0] + v[1] - np.array((0.1, 10.0, 0.0))).max(), 0.0, 1e-9)
+    place = [u[0], u[1] + np.array((0.001, 0.0, 0.0))]
+    angular = sum(np.cross(place[i], v[i])[:, 2] + 0.01 * spin[i][:, 2] for i in (0, 1))
+    check("angular momentum", np.abs(angular - 0.01).max(), 0.0, 1e-2)
+    stopped = Job("stopped", job.balocco, "2", job.folder)
+    (stopped.folder / "stopped.ctl").write_text("stop\n")
+    stopped.run(deck, expected_status=4)
+    (stopped.folder / "stopped.ctl").unlink(missing_ok=True)
+    stopped.ranks = "1"
+    stopped.run(deck, arguments=("--restart",))
+    for other in (jobs[1], stopped):
+        check(f"bits in {other.name}", float(np.array_equal(job.history("node_2", "U")[1], other.history("node_2", "U")[1])), 1.0, 0.0)
+
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (strut, damped_strut, struck_pendulum, braked_rotor, rubbing_slider, slider_crank, on_the_ground, driven_hinge)})
+    run_case({case.__name__: case for case in (strut, damped_strut, struck_pendulum, braked_rotor, rubbing_slider, slider_crank, on_the_ground, driven_hinge, thrown_off)})

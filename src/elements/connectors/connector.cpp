@@ -6,6 +6,7 @@
 #include "constraints/nodal_directions.hpp"
 #include "elements/element_type.hpp"
 #include "math/exact_sum.hpp"
+#include "model/bounding_box.hpp"
 #include "math/rotation.hpp"
 
 namespace balocco {
@@ -13,7 +14,7 @@ namespace balocco {
 namespace {
 
 // Rows of an element's history.
-constexpr int motion_row = 0, force_row = 6, elastic_row = 12, dissipation_row = 18;
+constexpr int motion_row = 0, force_row = 6, elastic_row = 12, dissipation_row = 18, reach_row = 19;
 
 }  // namespace
 
@@ -32,6 +33,7 @@ ConnectorGroup::ConnectorGroup(const GroupInput& input)
   const auto is_given = [](const auto& law) { return law.has_value(); };
   pulls_ = std::ranges::any_of(elasticity_, is_given) || std::ranges::any_of(damping_, is_given) || !connector_.coupled_elasticity.empty() ||
            !connector_.coupled_damping.empty();
+  if (has_growing_arm()) least_reach_ = 1e-6 * model_size(input.model);
   const ElementTable& table = input.model.elements[table_];
   for (std::int32_t element = 0; element < size_; ++element) {
     const auto* node = &table.connectivity[2 * static_cast<std::size_t>(rows_[element])];
@@ -158,6 +160,7 @@ void ConnectorGroup::update(const Kinematics& now, const Pull& pulled, std::span
     new_history[elastic_row + c] = pulled.elastic[c];
   }
   new_history[dissipation_row] = dissipated;
+  new_history[reach_row] = old_history[reach_row];
 }
 
 void ConnectorGroup::initialize_history(std::span<double> history) const { std::ranges::fill(history, 0.0); }
@@ -273,7 +276,7 @@ double ConnectorGroup::arm(std::int32_t element, int component) const {
   double square = 0.0;
   for (int c = 0; c < 3; ++c) {
     if (c == component) continue;
-    if (connector_.available[c]) return relative.length();
+    if (connector_.available[c]) return reach_.empty() ? relative.length() : reach_[element];
     square += relative.position_at_start(c) * relative.position_at_start(c);
   }
   return std::sqrt(square);
@@ -292,6 +295,47 @@ Restraint ConnectorGroup::rotary_restraint(std::int32_t element) const {
   result.viscosity += pulled.viscosity * longest * longest;
   result.force += pulled.force * longest;
   return result;
+}
+
+/// Whether some force has an arm that a free motion lengthens.
+bool ConnectorGroup::has_growing_arm() const {
+  if (!pulls_ || connector_.translation != Connector::Translation::cartesian) return false;
+  return std::count(connector_.available.begin(), connector_.available.begin() + 3, true) > 1;
+}
+
+double ConnectorGroup::distance(std::int32_t element, const NodalMotion& motion) const {
+  const double* const a = motion.position + 4 * std::ptrdiff_t{nodes(element)[0]};
+  const double* const b = motion.position + 4 * std::ptrdiff_t{nodes(element)[1]};
+  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+}
+
+/// A quarter more than the distance: what is thrown off by a model's size passes its reach some tens of times.
+void ConnectorGroup::set_reach(const NodalMotion& motion, std::span<double> history) {
+  if (!has_growing_arm()) return;
+  reach_.resize(static_cast<std::size_t>(size_));
+  std::array<double, 20> own{};
+  for (std::int32_t element = 0; element < size_; ++element) {
+    reach_[element] = 1.25 * distance(element, motion) + least_reach_;
+    gather_history(element, history, own);
+    own[reach_row] = reach_[element];
+    scatter_history(element, own, history);
+  }
+}
+
+void ConnectorGroup::restore_reach(std::span<const double> history) {
+  if (!has_growing_arm()) return;
+  reach_.resize(static_cast<std::size_t>(size_));
+  std::array<double, 20> own{};
+  for (std::int32_t element = 0; element < size_; ++element) {
+    gather_history(element, history, own);
+    reach_[element] = own[reach_row];
+  }
+}
+
+bool ConnectorGroup::is_beyond_reach(const NodalMotion& motion) const {
+  for (std::int32_t element = 0; element < static_cast<std::int32_t>(reach_.size()); ++element)
+    if (acts(element) && distance(element, motion) > reach_[element]) return true;
+  return false;
 }
 
 int ConnectorGroup::point_components(std::string_view variable) const {

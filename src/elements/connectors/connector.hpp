@@ -30,6 +30,9 @@ class ConnectorGroup : public ElementGroup {
                  std::span<double> force, std::span<double> stiffness) const override;
   Restraint restraint(std::int32_t element) const override;
   Restraint rotary_restraint(std::int32_t element) const override;
+  void set_reach(const NodalMotion& motion, std::span<double> history) override;
+  void restore_reach(std::span<const double> history) override;
+  bool is_beyond_reach(const NodalMotion& motion) const override;
   ElementEnergies energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history) const override;
   int integration_points() const override { return 1; }
   std::size_t bytes_per_element() const override { return sizeof(Reference) + 2 * sizeof(std::int32_t); }
@@ -65,6 +68,8 @@ class ConnectorGroup : public ElementGroup {
   void update(const Kinematics& now, const Pull& pulled, std::span<const double> old_history, std::span<double> new_history) const;
   Restraint bound(std::int32_t element, int first) const;
   double arm(std::int32_t element, int component) const;
+  double distance(std::int32_t element, const NodalMotion& motion) const;
+  bool has_growing_arm() const;
   void add_force(std::int32_t element, const ExplicitCycle& cycle, std::span<double> history) const;
   bool turns() const { return freedoms_per_node_ == 6; }
   Six coupled(const std::vector<double>& matrix, const Six& motion) const;
@@ -75,6 +80,8 @@ class ConnectorGroup : public ElementGroup {
 
   const Connector& connector_;
   std::vector<Reference> references_;
+  std::vector<double> reach_;  // distances of the nodes up to which the restraints hold; empty: they hold anywhere
+  double least_reach_ = 0.0;
   std::array<std::optional<ForceCurve>, 6> elasticity_, damping_;
   bool pulls_ = false;  // by some law; else it is measured alone
 };
