@@ -145,6 +145,7 @@ class Builder {
 
  public:
   std::set<std::int32_t> ground_nodes;                   // of connectors to the ground: made for them, held in every step
+  std::map<std::int32_t, std::string> joint_angles;      // nodes whose freedom 6 Abaqus makes the angle of an *MPC of that type
   Guide::Friction* connector_friction = nullptr;         // the last, until a *SURFACE INTERACTION: what *FRICTION speaks of
   std::map<std::string, std::vector<std::array<double, 6>>> derived_components;  // of the last behavior: Guide::Friction::terms
 };

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
@@ -160,6 +161,52 @@ void read_rope(Builder& builder, Row& row, const std::vector<std::int32_t>& node
   add(builder, GreatestDistance{{nodes[0], nodes[3]}, distance}, "*MPC", row.location());
 }
 
+/// Unit vector from a node to another; none where both are in one place.
+std::optional<Point> direction_of(const Builder& builder, std::int32_t from, std::int32_t to) {
+  Point line = subtract(builder.model.nodes.coordinates[to], builder.model.nodes.coordinates[from]);
+  const double length = norm(line);
+  if (!(length > 0.0)) return std::nullopt;
+  for (double& component : line) component /= length;
+  return line;
+}
+
+/// REVOLUTE a, b, c and UNIVERSAL a, b, c, d: a turns against b about the line from b to c, which b carries along; and then about that
+/// from b to d, which a carries along. Displacements are free. Source: Abaqus Analysis User's Guide, "General multi-point constraints".
+void read_turning_joint(Builder& builder, const Block& block, Row& row, const std::string& type, const std::vector<bool>& turns) {
+  const bool universal = type == "UNIVERSAL";
+  const std::size_t count = universal ? 4 : 3;
+  std::vector<std::int32_t> nodes;
+  if (!nodes_of_line(builder, block, row, nodes)) return;
+  if (nodes.size() != count || nodes[0] == nodes[1])
+    return row.error(universal ? "UNIVERSAL is followed by nodes a, b, c, d: a turns against b about the lines from b to c and from b to d"
+                               : "REVOLUTE is followed by nodes a, b, c: a turns against b about the line from b to c");
+  const auto name = [&](std::size_t i) { return builder.model.node_name(nodes[i]); };
+  for (std::size_t i = 0; i < count; ++i) {
+    const bool joined = i < 2;
+    if (turns[nodes[i]] || builder.body_of_reference.contains(nodes[i])) {
+      if (!joined)
+        return row.error(fmt::format("node {} shows an axis, and its degree of freedom 6 would be the angle: take a node of no element", name(i)));
+    } else if (joined) {
+      return row.error(fmt::format("node {} does not turn; join nodes of shells, beams and ROTARYI elements or reference nodes of rigid bodies", name(i)));
+    } else {
+      builder.joint_angles[nodes[i]] = type;
+    }
+  }
+  const auto first = direction_of(builder, nodes[1], nodes[2]), second = universal ? direction_of(builder, nodes[1], nodes[3]) : std::nullopt;
+  if (universal && (!first || !second || std::abs(dot(*first, *second)) > 1e-3))
+    return row.error(fmt::format("the lines from node {} to nodes {} and {} are not two axes at right angles; move nodes {} and {}", name(1), name(2),
+                                 name(3), name(2), name(3)));
+  const auto axis = first.value_or(Point{0.0, 0.0, 1.0});  // as Abaqus takes it
+  const auto across = universal ? axes_of_points({}, axis, *second) : std::nullopt;
+  const auto about = axes_about(axis);
+  // Rows: the first axis first; of a universal joint the second one third.
+  const std::array<Point, 3> axes = across ? std::array<Point, 3>{axis, cross((*across)[1], axis), (*across)[1]} : std::array<Point, 3>{axis, about[0], about[1]};
+  add(builder,
+      Joint{.nodes = {nodes[1], nodes[0]}, .pieces = {{.part = universal ? Joint::Part::universal : Joint::Part::revolute}}, .axes = axes,
+            .second_axes = axes},
+      "*MPC", row.location());
+}
+
 void read_mpc(Builder& builder, const Block& block) {
   const auto turns = turning_nodes(builder.model);
   for (const auto& line : block.lines) {
@@ -173,16 +220,11 @@ void read_mpc(Builder& builder, const Block& block) {
       continue;
     }
     if (type == "REVOLUTE" || type == "UNIVERSAL") {
-      row.error(fmt::format(
-          "{} is a connector here: put a CONN3D2 between the nodes, with *CONNECTOR SECTION {}, and an *ORIENTATION "
-          "whose {}",
-          type,
-          type == "REVOLUTE" ? "REVOLUTE (HINGE with the displacements)" : "UNIVERSAL (UJOINT with the displacements)",
-          type == "REVOLUTE" ? "first direction is the axis" : "first and third directions are the axes"));
+      read_turning_joint(builder, block, row, type, turns);
       continue;
     }
     if (type != "BEAM" && type != "PIN" && type != "TIE" && type != "LINK") {
-      row.error(fmt::format("type {} is not known; there are BEAM, PIN, TIE, LINK, PLANE, STRAIGHT and DIST; joints are connectors (*CONNECTOR SECTION)", row.text(0)));
+      row.error(fmt::format("type {} is not known; there are BEAM, PIN, TIE, LINK, REVOLUTE, UNIVERSAL, PLANE, STRAIGHT and DIST; other joints are connectors (*CONNECTOR SECTION)", row.text(0)));
       continue;
     }
     if (!row.has(1) || !row.has(2)) {

@@ -112,6 +112,16 @@ BoundaryCondition::Kind kind_of(const Block& block) {
   return type == "ACCELERATION" ? BoundaryCondition::Kind::acceleration : BoundaryCondition::Kind::displacement;
 }
 
+/// Whether Abaqus makes that freedom the angle of a joint; told.
+bool is_angle_of_joint(const Builder& builder, std::int32_t node, int dof, Row& row) {
+  const auto joint = builder.joint_angles.find(node);
+  if (dof != 5 || joint == builder.joint_angles.end()) return false;
+  row.error(fmt::format("degree of freedom 6 of node {} is the angle of an *MPC {}, which cannot be driven or loaded here; put a CONN3D2 with "
+                        "*CONNECTOR SECTION {} in its place, and *CONNECTOR MOTION or *CONNECTOR LOAD",
+                        builder.model.node_name(node), joint->second, joint->second));
+  return true;
+}
+
 void read_boundary_line(Builder& builder, const Block& block, Row& row, BoundaryCondition condition,
                         Rotations& rotations, bool& told_rotation) {
   if (!row.has(1)) return row.error("field 2 is missing: degree of freedom or named condition; add it");
@@ -128,6 +138,7 @@ void read_boundary_line(Builder& builder, const Block& block, Row& row, Boundary
   condition.line = row.location().line;
   for (const auto node : nodes) {
     for (const int dof : freedoms->dofs) {
+      if (is_angle_of_joint(builder, node, dof, row)) return;
       if (dof >= 3 && !rotations.has(node)) {
         if (!freedoms->named && freedoms->magnitude != 0.0) {
           return row.error(fmt::format(
@@ -191,6 +202,7 @@ void read_concentrated(Builder& builder, const Block& block) {
       row.error(fmt::format("degree of freedom {} does not exist; give 1 to 6", dof));
     if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, nodes)) continue;
     for (const auto node : nodes) {
+      if (is_angle_of_joint(builder, node, static_cast<int>(dof) - 1, row)) break;
       if (dof > 3 && !rotations.has(node)) {
         row.error(fmt::format("node {} cannot take a moment; nodes of shells, beams and ROTARYI elements and reference nodes of rigid "
                               "bodies can",

@@ -280,6 +280,54 @@ ALLKE, ALLIE, ALLWK, ETOTAL
         check(f"bits in {other.name}", float(np.array_equal(job.history("node_2", "U")[1], other.history("node_2", "U")[1])), 1.0, 0.0)
 
 
+def joints_of_constraints(run):
+    """*MPC REVOLUTE and UNIVERSAL with PIN do what the connectors HINGE and UJOINT do: a tilted body that swings from another one."""
+    axis, across = np.array((0.6, 0.0, 0.8)), np.array((0.0, 1.0, 0.0))
+    show = lambda node, direction: f"{node}, " + ", ".join(repr(float(x)) for x in (np.array((0.1, 0.2, 0.3)) + 0.5 * direction)) + "\n"
+    first = ", ".join(repr(float(x)) for x in axis)
+    bodies = """*NODE
+1, 0.1, 0.2, 0.3
+2, 0.1, 0.2, 0.3
+3, 0.4, 0.3, 0.1
+SHOWN*NSET, NSET=SWINGS
+2
+*NSET, NSET=END
+3
+*ELEMENT, TYPE=MASS, ELSET=M
+1, 1
+2, 3
+*MASS, ELSET=M
+2.
+*ELEMENT, TYPE=ROTARYI, ELSET=I
+3, 1
+4, 2
+*ROTARY INERTIA, ELSET=I
+0.02, 0.03, 0.04
+*MPC
+BEAM, 3, 2
+*BOUNDARY
+1, 1, 3
+"""
+    joints = {"REVOLUTE": ("HINGE", "REVOLUTE, 2, 1, 11\nPIN, 2, 1\n"), "UNIVERSAL": ("UJOINT", "UNIVERSAL, 2, 1, 11, 12\nPIN, 2, 1\n")}
+    for ranks, (kind, (connector, lines)) in zip((1, 2), joints.items()):
+        load = "*DLOAD\n, GRAV, 9.81, 0.2, -0.9, 0.3\n"
+        step = explicit_step(1e-4, 0.4, load, "*OUTPUT, HISTORY, TIME INTERVAL=0.02\n*NODE OUTPUT, NSET=SWINGS\nUR\n*NODE OUTPUT, NSET=END\nU\n"
+                             "*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ETOTAL\n")
+        by_constraint = run(bodies.replace("SHOWN", show(11, axis) + show(12, np.cross(axis, across))) + "*MPC\n" + lines + step, ranks)
+        by_connector = run(bodies.replace("SHOWN", "") + f"""*ELEMENT, TYPE=CONN3D2, ELSET=JOINT
+5, 1, 2
+*ORIENTATION, NAME=AXES
+{first}, {', '.join(repr(float(x)) for x in across)}
+*CONNECTOR SECTION, ELSET=JOINT
+{connector}
+AXES
+""" + step, ranks)
+        for node, variable in ((2, "UR"), (3, "U")):
+            ours, theirs = (job.history(f"node_{node}", variable)[1] for job in (by_constraint, by_connector))
+            check(f"{kind}: {variable} moves", float(np.abs(theirs).max() > 0.1), 1.0, 0.0)
+            check(f"{kind}: {variable}", np.abs(ours - theirs).max(), 0.0, 1e-7)
+        check_energy(by_constraint, 1e-3)
+
 
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (strut, damped_strut, struck_pendulum, braked_rotor, rubbing_slider, slider_crank, on_the_ground, driven_hinge, thrown_off)})
+    run_case({case.__name__: case for case in (strut, damped_strut, struck_pendulum, braked_rotor, rubbing_slider, slider_crank, on_the_ground, driven_hinge, thrown_off, joints_of_constraints)})
