@@ -146,10 +146,23 @@ void Writer::amplitude(const Amplitude& amplitude) {
   values(numbers);
 }
 
+/// Axes of single elements, as a distribution.
+void Writer::element_orientation(const Orientation& orientation) {
+  line("*DISTRIBUTION TABLE, NAME={}", quoted(orientation.name + "-TABLE"));
+  line("COORD3D, COORD3D");
+  line("*DISTRIBUTION, NAME={}, LOCATION=ELEMENT, TABLE={}", quoted(orientation.name + "-AXES"), quoted(orientation.name + "-TABLE"));
+  for (const auto& [element, axes] : orientation.of_element)
+    line("{}, {}, {}", model_.elements[element.table].id[element.row], list(axes[0]), list(axes[1]));
+  line("*ORIENTATION, NAME={}", quoted(orientation.name));
+  line("{}", quoted(orientation.name + "-AXES"));
+}
+
 void Writer::orientation(const Orientation& orientation) {
   const auto& [x, y, z] = orientation.axes;
   const Point& o = orientation.origin;
-  if (orientation.system == Orientation::System::cylindrical) {
+  if (!orientation.of_element.empty()) {
+    element_orientation(orientation);
+  } else if (orientation.system == Orientation::System::cylindrical) {
     line("*ORIENTATION, NAME={}, SYSTEM=CYLINDRICAL", quoted(orientation.name));
     line("{}, {}", list(o), list(plus(o, z, 1.0)));
   } else {

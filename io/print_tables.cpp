@@ -201,7 +201,7 @@ void PrintTables::turn(const Request& request, const Place& element, bool is_mat
     for (int i = 0; i < 3; ++i)
       centre[i] +=
           model_.nodes.coordinates[table.connectivity[element.row * table.type->nodes + node]][i] / table.type->nodes;
-  const auto directions = material_directions(model_, section, centre),
+  const auto directions = material_directions(model_, section, centre, {element.table, element.row}),
              axes = is_material ? transpose(directions) : directions;
   const Matrix3<double> given{
       {tensor[0], tensor[3], tensor[4], tensor[3], tensor[1], tensor[5], tensor[4], tensor[5], tensor[2]}};

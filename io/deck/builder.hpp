@@ -52,6 +52,18 @@ struct ElementRange {
   std::int32_t table, first, last;  // rows first .. last - 1
 };
 
+/// An *ORIENTATION whose axes are those of each element that has it.
+struct ElementDirections {
+  std::array<int, 3> corner{-1, -1, -1};  // OFFSET TO NODES: nodes a, b and c of the element, from 0
+  std::string distribution;               // else the name of a *DISTRIBUTION
+};
+
+/// *DISTRIBUTION of directions.
+struct DirectionDistribution {
+  std::optional<std::array<Point, 3>> otherwise;  // of elements that it does not name
+  std::map<ElementRef, std::array<Point, 3>> axes;
+};
+
 /// A coordinate system for nodes: *SYSTEM or *NODE, SYSTEM=.
 struct NodeSystem {
   Point origin{};
@@ -145,6 +157,10 @@ class Builder {
 
  public:
   std::set<std::int32_t> ground_nodes;                   // of connectors to the ground: made for them, held in every step
+  std::map<std::int32_t, ElementDirections> element_directions;  // by row of Model::orientations
+  std::map<std::string, std::vector<std::string>> distribution_tables;
+  Names distributions{"distribution", {}};  // rows of:
+  std::vector<DirectionDistribution> direction_distributions;
   std::map<std::int32_t, std::string> joint_angles;      // nodes whose freedom 6 Abaqus makes the angle of an *MPC of that type
   Guide::Friction* connector_friction = nullptr;         // the last, until a *SURFACE INTERACTION: what *FRICTION speaks of
   std::map<std::string, std::vector<std::array<double, 6>>> derived_components;  // of the last behavior: Guide::Friction::terms

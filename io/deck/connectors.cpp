@@ -9,6 +9,7 @@
 #include "constraints/nodal_directions.hpp"
 #include "deck/builder.hpp"
 #include "deck/connector_guides.hpp"
+#include "deck/orientations.hpp"
 #include "deck/register.hpp"
 #include "deck/section_assignment.hpp"
 #include "deck/text.hpp"
@@ -104,7 +105,7 @@ bool read_orientations(Builder& builder, const Block& block, Connector& connecto
   row.at_most(2);
   for (int end = 0; end < 2; ++end) {
     if (!row.has(end)) continue;
-    const auto orientation = builder.require(builder.orientations, row.name(end), block, row.location());
+    const auto orientation = require_directions(builder, row.name(end), block, row.location());
     if (!orientation) return false;
     connector.orientation[end] = *orientation;
   }

@@ -8,6 +8,7 @@
 #include "constraints/nodal_directions.hpp"
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
+#include "deck/orientations.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/surface_nodes.hpp"
@@ -52,7 +53,7 @@ std::optional<std::int32_t> one_node(Builder& builder, const Block& block, const
 
 bool find_axes(Builder& builder, const Block& block, Cloud& cloud) {
   if (!block.has("ORIENTATION")) return true;
-  const auto row = builder.require(builder.orientations, block.value("ORIENTATION"), block, block.location);
+  const auto row = require_directions(builder, block.value("ORIENTATION"), block, block.location);
   if (!row) return false;
   const auto axes = local_axes(builder.model.orientations[*row], builder.model.nodes.coordinates[cloud.reference]);
   for (int i = 0; i < 3; ++i) cloud.axes[i] = {axes(i, 0), axes(i, 1), axes(i, 2)};

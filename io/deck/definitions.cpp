@@ -1,12 +1,8 @@
-// *HEADING *UNITS *PREPRINT *AMPLITUDE *ORIENTATION *TRANSFORM *TIME POINTS, and the structure keywords that the
+// *HEADING *UNITS *PREPRINT *AMPLITUDE *TIME POINTS, and the structure keywords that the
 // schedule handles.
 #include <fmt/format.h>
 
-#include <cmath>
-#include <numbers>
-
 #include "deck/builder.hpp"
-#include "deck/geometry.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 
@@ -116,77 +112,6 @@ void read_amplitude(Builder& builder, const Block& block) {
   builder.model.amplitudes.push_back(std::move(amplitude));
 }
 
-/// Point of fields `first`.. of a row.
-Point point_of(Row& row, int first, const char* what) {
-  Point point;
-  for (int i = 0; i < 3; ++i) point[i] = row.real_or(first + i, 0.0, what);
-  return point;
-}
-
-/// Axes of a cylindrical system about the line from a to b.
-std::optional<std::array<Point, 3>> cylindrical_axes(const Point& a, const Point& b) {
-  Point axis = subtract(b, a);
-  const double length = norm(axis);
-  if (!(length > 0.0)) return std::nullopt;
-  for (double& component : axis) component /= length;
-  return axes_about(axis);
-}
-
-void read_orientation(Builder& builder, const Block& block) {
-  Orientation orientation;
-  const auto full = builder.define(builder.orientations, block.value("NAME"),
-                                   static_cast<std::int32_t>(builder.model.orientations.size()), block);
-  if (!full) return;
-  orientation.name = *full;
-  if (block.lines.empty()) {
-    builder.error(block, block.location, "it has no data; add the points a, b (and c)");
-  } else {
-    Row row(builder, block, block.lines[0]);
-    const bool cylindrical = block.value("SYSTEM") == "CYLINDRICAL";
-    const Point a = point_of(row, 0, "point a"), b = point_of(row, 3, "point b"), c = point_of(row, 6, "point c");
-    row.at_most(cylindrical ? 6 : 9);
-    orientation.system = cylindrical ? Orientation::System::cylindrical : Orientation::System::rectangular;
-    // Rectangular: c is the origin (default: the global one), a on the first axis, b in the plane of the first two.
-    const auto axes = cylindrical ? cylindrical_axes(a, b) : axes_of_points(c, a, b);
-    orientation.origin = builder.scope->place(cylindrical ? a : c);
-    if (row.ok() && !axes) row.error("the points define no axes; give points that do not lie on a line");
-    if (axes) {
-      for (int k = 0; k < 3; ++k) orientation.axes[k] = builder.scope->turn((*axes)[k]);
-    }
-  }
-  if (block.lines.size() > 1) {
-    Row row(builder, block, block.lines[1]);
-    const std::int64_t axis = row.integer_or(0, 1, "axis of the additional rotation");
-    orientation.additional_rotation = row.real_or(1, 0.0, "angle in degrees") * std::numbers::pi / 180.0;
-    row.at_most(2);
-    if (row.ok() && (axis < 1 || axis > 3)) row.error(fmt::format("axis {} does not exist; give 1, 2 or 3", axis));
-    orientation.rotation_axis = static_cast<int>(axis) - 1;
-  }
-  builder.model.orientations.push_back(std::move(orientation));
-}
-
-void read_transform(Builder& builder, const Block& block) {
-  NodalTransform transform;
-  if (!builder.nodes_of(block.value("NSET"), block, block.location, transform.nodes)) return;
-  if (block.lines.empty()) return builder.error(block, block.location, "it has no data; add the points a and b");
-  Row row(builder, block, block.lines[0]);
-  const Point a = point_of(row, 0, "point a"), b = point_of(row, 3, "point b");
-  row.at_most(6);
-  if (!row.ok()) return;
-  auto& directions = transform.directions;
-  std::optional<std::array<Point, 3>> axes;
-  if (block.value("TYPE", "R") == "C") {
-    directions.system = Orientation::System::cylindrical;
-    directions.origin = builder.scope->place(a);
-    axes = cylindrical_axes(a, b);
-  } else {
-    axes = axes_of_points({}, a, b);
-  }
-  if (!axes) return row.error("points a and b define no axes; correct them");
-  for (int k = 0; k < 3; ++k) directions.axes[k] = builder.scope->turn((*axes)[k]);
-  builder.model.transforms.push_back(std::move(transform));
-}
-
 void read_time_points(Builder& builder, const Block& block) {
   auto& points = builder.time_points[block.value("NAME")];
   if (!points.empty()) {
@@ -230,14 +155,6 @@ const RegisterKeyword amplitude{
       choice("TIME", {"STEP TIME", "TOTAL TIME", "STEP", "TOTAL"}), choice("VALUE", {"RELATIVE", "ABSOLUTE"}),
       real("FIXED INTERVAL"), real("BEGIN")},
      read_amplitude}};
-const RegisterKeyword orientation{
-    {"ORIENTATION",
-     Phase::definitions,
-     Place::model,
-     {required(name("NAME")), choice("SYSTEM", {"RECTANGULAR", "CYLINDRICAL"}), choice("DEFINITION", {"COORDINATES"})},
-     read_orientation}};
-const RegisterKeyword transform{
-    {"TRANSFORM", Phase::surfaces, Place::model, {required(name("NSET")), choice("TYPE", {"R", "C"})}, read_transform}};
 const RegisterKeyword time_points{
     {"TIME POINTS", Phase::definitions, Place::anywhere, {required(name("NAME")), flag("GENERATE")}, read_time_points}};
 

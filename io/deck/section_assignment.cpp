@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "deck/orientations.hpp"
 #include "elements/element_type.hpp"
 
 namespace balocco::deck {
@@ -116,7 +117,7 @@ std::optional<Section> begin_section(Builder& builder, const Block& block, std::
   if (block.has("ORIENTATION")) {
     const auto orientation = builder.require(builder.orientations, block.value("ORIENTATION"), block, block.location);
     section.orientation = orientation.value_or(-1);
-    good = good && orientation;
+    good = good && orientation && give_directions(builder, block, *orientation, elements);
   }
   if (block.has("CONTROLS")) {
     const std::string name = block.value("CONTROLS");

@@ -37,6 +37,7 @@ class Writer {
   void definitions();
   void amplitude(const Amplitude& amplitude);
   void orientation(const Orientation& orientation);
+  void element_orientation(const Orientation& orientation);
   void surfaces();
   void surface(const Surface& surface);
   void analytical(const Surface& surface);

@@ -67,6 +67,14 @@ double Amplitude::value(double time) const {
   return points[index][1] + weight * (points[index + 1][1] - points[index][1]);
 }
 
+Orientation Orientation::of(ElementRef element) const {
+  Orientation own{.system = system, .name = {}, .origin = origin, .axes = axes, .rotation_axis = rotation_axis,
+                  .additional_rotation = additional_rotation};
+  const auto found = std::ranges::lower_bound(of_element, element, {}, [](const auto& entry) { return entry.first; });
+  if (found != of_element.end() && found->first == element) own.axes = found->second;
+  return own;
+}
+
 const ImplicitIncrements* Step::implicit_increments() const {
   if (const auto* statics = std::get_if<StaticProcedure>(&procedure)) return statics;
   return std::get_if<DynamicProcedure>(&procedure);

@@ -129,6 +129,10 @@ struct Orientation {
   std::array<Point, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
   int rotation_axis = 0;  // membranes: the axis nearest the normal; the next axis (cyclic), projected, is local direction 1
   double additional_rotation = 0.0;
+  std::vector<std::pair<ElementRef, std::array<Point, 3>>> of_element = {};  // axes of single elements, sorted, in place of `axes`
+
+  /// As it is for one element.
+  Orientation of(ElementRef element) const;
 };
 
 /// *TRANSFORM: nodal degrees of freedom of a set count along these directions (same meaning as in Orientation).

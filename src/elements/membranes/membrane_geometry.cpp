@@ -73,9 +73,9 @@ Vector interpolate(const Element& element, const std::array<double, 4>& weight) 
 
 /// Local directions at `point` of the surface with unit `normal`.
 void set_directions(const Element& element, const Vector& point, const Vector& normal, MembranePoint& result) {
-  const auto orientation = element.section.orientation;
-  const auto directions =
-      surface_directions(orientation < 0 ? nullptr : &element.model.orientations[orientation], point, normal);
+  const auto row = element.section.orientation;
+  const auto orientation = row < 0 ? Orientation{} : element.model.orientations[row].of(element.reference);
+  const auto directions = surface_directions(row < 0 ? nullptr : &orientation, point, normal);
   if (!directions)
     element.fail("has a normal along the direction that its *ORIENTATION projects onto it; choose another axis there");
   result.direction1 = directions->first;

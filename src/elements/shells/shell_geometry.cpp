@@ -77,8 +77,8 @@ Flat flatten(const Element& element, const Section& section, ShellGeometry& geom
   const double longest = std::max(length(one), length(other));
   if (!(length(area) > 1e-10 * longest * longest)) element.fail("has no area; correct its nodes");
   geometry.normal = (1.0 / length(area)) * area;
-  const auto directions = surface_directions(
-      section.orientation < 0 ? nullptr : &element.model.orientations[section.orientation], centre, geometry.normal);
+  const auto orientation = section.orientation < 0 ? Orientation{} : element.model.orientations[section.orientation].of(element.reference);
+  const auto directions = surface_directions(section.orientation < 0 ? nullptr : &orientation, centre, geometry.normal);
   if (!directions)
     element.fail("has a normal along the direction that its *ORIENTATION projects onto it; choose another axis there");
   geometry.direction1 = directions->first;

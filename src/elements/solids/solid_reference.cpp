@@ -78,9 +78,9 @@ SolidMaterial SolidMaterial::of_section(const Model& model, const Section& secti
   return result;
 }
 
-Matrix3<double> material_directions(const Model& model, const Section& section, const Point& point) {
+Matrix3<double> material_directions(const Model& model, const Section& section, const Point& point, ElementRef element) {
   if (section.orientation < 0) return Matrix3<double>::identity();
-  const Orientation& orientation = model.orientations.at(section.orientation);
+  const Orientation orientation = model.orientations.at(section.orientation).of(element);
   std::array<Vector, 3> axes{as_vector(orientation.axes[0]), as_vector(orientation.axes[1]),
                              as_vector(orientation.axes[2])};
   if (orientation.system == Orientation::System::cylindrical) {
@@ -104,7 +104,9 @@ void reference_nodes(const Model& model, const Section& section, const ElementTa
     nodes[i] = as_vector(model.nodes.coordinates[table.connectivity[static_cast<std::size_t>(row) * count + i]]);
     centre = centre + (1.0 / count) * nodes[i];
   }
-  const Matrix3<double> to_material = transpose(material_directions(model, section, {centre[0], centre[1], centre[2]}));
+  const auto own = std::ranges::find(model.elements, table.type, &ElementTable::type);
+  const ElementRef element{static_cast<std::int32_t>(own - model.elements.begin()), row};
+  const Matrix3<double> to_material = transpose(material_directions(model, section, {centre[0], centre[1], centre[2]}, element));
   for (auto& node : nodes) node = to_material * (node - centre);
 }
 

@@ -24,8 +24,8 @@ struct SolidMaterial {
   static SolidMaterial of_section(const Model& model, const Section& section);
 };
 
-/// Columns are the section's material directions at `point`: the global ones without an orientation.
-Matrix3<double> material_directions(const Model& model, const Section& section, const Point& point);
+/// Columns are the section's material directions at `point` of an element: the global ones without an orientation.
+Matrix3<double> material_directions(const Model& model, const Section& section, const Point& point, ElementRef element = {});
 
 /// Nodes of a row of an element table in the section's material directions about the element's centre. Solids are
 /// computed there: rotating the reference configuration once makes F = dx/dX that of the material directions at no cost

@@ -1,0 +1,84 @@
+#!/usr/bin/env python3
+"""Directions of single elements through the whole program: orientation_cases.py CASE BALOCCO FOLDER."""
+import math
+
+import numpy as np
+
+from explicit_cases import check, run_case
+
+MATERIAL = """*MATERIAL, NAME=M
+*ELASTIC, TYPE=ENGINEERING CONSTANTS
+100., 10., 5., 0.3, 0.2, 0.1, 4., 3.,
+2.
+*DENSITY
+1e-3
+"""
+STEPS = """*STEP, NLGEOM
+*STATIC
+1., 1.
+*BOUNDARY
+ROOT, 1, 3
+*CLOAD
+TIP, 2, 1e-5
+TIP, 3, 1e-5
+*OUTPUT, FIELD, FREQUENCY=1, PRECISION=DOUBLE
+*NODE OUTPUT
+U
+*END STEP
+*STEP
+*DYNAMIC, EXPLICIT
+, 0.05
+*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE
+*NODE OUTPUT
+U
+*END STEP
+"""
+
+
+def strip(kind, count):
+    """A strip of elements along x; shells and membranes are its lower side."""
+    solid = kind == "C3D8R"
+    nodes, elements = [], []
+    number = lambda i, j, k: 1 + i + (count + 1) * (j + 2 * k)
+    for k in range(2 if solid else 1):
+        for j in range(2):
+            nodes += [f"{number(i, j, k)}, {float(i)!r}, {j + 0.1 * i!r}, {float(k)!r}" for i in range(count + 1)]
+    for i in range(count):
+        lower = [number(i, 0, 0), number(i + 1, 0, 0), number(i + 1, 1, 0), number(i, 1, 0)]
+        upper = [number(i, 0, 1), number(i + 1, 0, 1), number(i + 1, 1, 1), number(i, 1, 1)] if solid else []
+        elements.append(f"{i + 1}, " + ", ".join(map(str, lower + upper)))
+    ends = {name: [number(i, j, k) for j in range(2) for k in range(2 if solid else 1)] for name, i in (("ROOT", 0), ("TIP", count))}
+    text = "*NODE\n" + "\n".join(nodes) + f"\n*ELEMENT, TYPE={kind}, ELSET=ALL\n" + "\n".join(elements) + "\n" + MATERIAL
+    return text + "".join(f"*NSET, NSET={name}\n{', '.join(map(str, ids))}\n" for name, ids in ends.items())
+
+
+def directions_of_elements(run):
+    """A strip whose elements each have an orientation and a section of their own does the same where one distribution, or the
+    elements' own nodes, give the directions."""
+    count = 5
+    sections = {"C3D8R": ("*SOLID SECTION", ""), "S4R": ("*SHELL SECTION", "0.2\n"), "M3D4R": ("*MEMBRANE SECTION", "0.2\n")}
+    for kind, (section, data) in sections.items():
+        steps = STEPS.replace("ROOT, 1, 3\n", "ROOT, 1, 6\n") if kind == "S4R" else STEPS
+        if kind == "M3D4R":  # in its plane
+            steps = steps.replace("ROOT, 1, 3\n", "ROOT, 1, 3\nEVERY, 3, 3\n").replace("TIP, 3, 1e-5\n", "")
+        mesh = strip(kind, count) + f"*NSET, NSET=EVERY, GENERATE\n1, {2 * count + 2}\n"
+        axes = [f"{math.cos(0.3 * i)!r}, {math.sin(0.3 * i)!r}, 0., {-math.sin(0.3 * i)!r}, {math.cos(0.3 * i)!r}, 0." for i in range(count)]
+        rows = "".join(f"{i + 1}, {axes[i]}\n" for i in range(1, count))
+        given = f"*DISTRIBUTION TABLE, NAME=T\nCOORD3D, COORD3D\n*DISTRIBUTION, NAME=D, LOCATION=ELEMENT, TABLE=T\n, {axes[0]}\n{rows}"
+        one = f"{section}, ELSET=ALL, MATERIAL=M, ORIENTATION=O\n{data}*ORIENTATION, NAME=O"
+        each = "".join(f"*ELSET, ELSET=E{i}\n{i + 1}\n*ORIENTATION, NAME=O{i}\n{axes[i]}\n3, 20.\n"
+                       f"{section}, ELSET=E{i}, MATERIAL=M, ORIENTATION=O{i}\n{data}" for i in range(count))
+        offset = 0.1 / math.sqrt(1.01)  # of the first edge, which is (1, 0.1, 0) long
+        along = f"{1.0 / math.sqrt(1.01)!r}, {offset!r}, 0., 0., 1., 0."
+        pairs = [(each, one + "\nD\n3, 20.\n" + given), (one + f"\n{along}\n3, 20.\n", one + ", DEFINITION=OFFSET TO NODES\n2, 4\n3, 20.\n"),
+                 (one + f"\n{along}\n3, 20.\n", one + ", DEFINITION=NODES\n2, 7, 1\n3, 20.\n")]
+        for number, (reference, other) in enumerate(pairs):
+            ours, theirs = (run(mesh + text + steps, ranks) for ranks, text in ((1, reference), (2, other)))
+            for step in (1, 2):
+                u, v = (job.frame("U", -1, step) for job in (ours, theirs))
+                check(f"{kind}, {number}: it moves in step {step}", float(np.abs(u).max() > 1e-5), 1.0, 0.0)
+                check(f"{kind}, {number}: step {step}", np.abs(u - v).max(), 0.0, 1e-6 * np.abs(u).max())
+
+
+if __name__ == "__main__":
+    run_case({case.__name__: case for case in (directions_of_elements,)})
