@@ -51,6 +51,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   add_loads(request);
   add_pressure_stiffness(request);
   add_body_load_stiffness(request);
+  add_follower_stiffness(request);
   add_contact(request.contact_sticks);
   guides_.aim(analysis_, request.step_time, request.total_time, request.initial_loads);
   add_constraints();
@@ -200,6 +201,30 @@ void ImplicitSystem::add_body_load_stiffness(const AssemblyRequest& request) {
     const double magnitude = request.load_stiffness ? -magnitude_of(load, request) : 0.0;
     stiffness_.add(std::array{map_.motion(node)}, body_force_derivative(load, magnitude, share).component);
   });
+}
+
+std::optional<std::array<NodeMotion, 2>> ImplicitSystem::followed_motion(const ConcentratedLoad& load) const {
+  const auto node = analysis_.domain.local_node[load.node];
+  if (!load.follower || node < 0 || !analysis_.domain.owned[node]) return std::nullopt;
+  const auto body = analysis_.reference_of(node);
+  return std::array{map_.motion(node), body >= 0 ? map_.spin(body) : map_.nodal_spin(node)};
+}
+
+/// A spin changes a force that follows by spin x force.
+void ImplicitSystem::add_follower_stiffness(const AssemblyRequest& request) {
+  for (const auto& load : step_.concentrated_loads) {
+    const auto motion = followed_motion(load);
+    if (!motion) continue;
+    const auto force = concentrated_vector(analysis_, load, request.load_stiffness ? magnitude_of(load, request) : 0.0);
+    block_.assign(36, 0.0);
+    for (int j = 0; j < 3; ++j) {
+      Point spin{};
+      spin[j] = 1.0;
+      const auto change = cross_product(force.data(), spin.data());  // of the residual, from which loads are taken
+      for (int i = 0; i < 3; ++i) block_[6 * (load.dof < 3 ? i : 3 + i) + 3 + j] = change[i];
+    }
+    stiffness_.add(*motion, block_);
+  }
 }
 
 void ImplicitSystem::add_contact(bool sticks) {

@@ -110,6 +110,8 @@ void ImplicitSystem::record_pattern() {
     for (std::int32_t face = 0; face < analysis_.pressure_faces[load.surface]->size(); ++face)
       stiffness_.add(motions_of(analysis_.pressure_faces[load.surface]->nodes(face)), {});
   for_each_spun_node([&](std::int32_t node, const BodyLoad&, double) { stiffness_.add(std::array{map_.motion(node)}, {}); });
+  for (const auto& load : step_.concentrated_loads)
+    if (const auto motion = followed_motion(load)) stiffness_.add(*motion, {});
   for (const auto pair : step_.active_contact_pairs) {
     const auto& contact = analysis_.contacts[pair];
     const auto master = analysis_.domain.local_node[analysis_.model.rigid_bodies[contact.master_body()].reference_node];

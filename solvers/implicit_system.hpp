@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -106,6 +107,9 @@ class ImplicitSystem {
   double magnitude_of(const Load& load, const AssemblyRequest& request) const;
   void add_pressure_stiffness(const AssemblyRequest& request);
   void add_body_load_stiffness(const AssemblyRequest& request);
+  void add_follower_stiffness(const AssemblyRequest& request);
+  /// Displacement and spin of the node of a concentrated load that follows; none where another rank owns it.
+  std::optional<std::array<NodeMotion, 2>> followed_motion(const ConcentratedLoad& load) const;
   /// Calls visit(local node, load, share) for the loads whose force depends on the place, always in the same order.
   template <class Visit>
   void for_each_spun_node(Visit visit) const {

@@ -2,6 +2,7 @@
 
 #include "consistent_mass.hpp"
 #include "loads/body_load.hpp"
+#include "math/rotation.hpp"
 
 namespace balocco {
 
@@ -24,6 +25,16 @@ double load_magnitude(const Model& model, const Step& step, double previous, dou
   return amplitude >= 0 ? magnitude * factor : previous + (magnitude - previous) * factor;
 }
 
+Point concentrated_vector(const Analysis& analysis, const ConcentratedLoad& load, double magnitude) {
+  const auto vector = magnitude * Vector3<double>{analysis.directions.direction(load.node, load.dof % 3)};
+  const auto node = analysis.domain.local_node[load.node];
+  if (!load.follower) return vector.component;
+  const auto body = analysis.reference_of(node);
+  const auto& state = analysis.current;
+  const double* const q = body >= 0 ? state.rigid_bodies[body].orientation.data() : &state.orientation[4 * static_cast<std::size_t>(node)];
+  return (rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]}) * vector).component;
+}
+
 bool is_left_out(const Analysis& analysis, const BodyLoad& load, std::int32_t node, CarriedGravity carried) {
   return carried == CarriedGravity::left_out && load.kind == BodyLoad::Kind::gravity &&
          (analysis.carrier(node) >= 0 || analysis.reference_of(node) >= 0);
@@ -39,8 +50,7 @@ void add_concentrated_load(const Analysis& analysis, const ConcentratedLoad& loa
                            const NodalForces& forces, std::vector<Point>& moments) {
   const auto node = analysis.domain.local_node[load.node];
   if (node < 0) return;
-  auto vector = analysis.directions.direction(load.node, load.dof % 3);
-  for (double& component : vector) component *= magnitude;
+  const auto vector = concentrated_vector(analysis, load, magnitude);
   const auto body = analysis.reference_of(node);
   if (load.dof >= 3 && body >= 0) {
     for (int i = 0; i < 3; ++i) moments[body][i] += vector[i];

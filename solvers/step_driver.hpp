@@ -18,6 +18,9 @@ bool has_arrived(const Model& model, const BoundaryCondition& condition);
 double load_magnitude(const Model& model, const Step& step, double previous, double magnitude, std::int32_t amplitude,
                       double step_time, double total_time);
 
+/// Force or moment of that magnitude on a local node, global directions: one that follows has turned with the node.
+Point concentrated_vector(const Analysis& analysis, const ConcentratedLoad& load, double magnitude);
+
 /// Gravity on what rigid bodies carry acts on their nodes, or is left out where a caller gives it to the bodies themselves.
 enum class CarriedGravity { on_nodes, left_out };
 bool is_left_out(const Analysis& analysis, const BodyLoad& load, std::int32_t local_node, CarriedGravity carried);

@@ -191,6 +191,7 @@ void read_concentrated(Builder& builder, const Block& block) {
   }
   const auto amplitude = amplitude_of(builder, block);
   if (!amplitude) return;
+  const bool follower = block.has("FOLLOWER");
   Rotations rotations(builder);
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
@@ -203,14 +204,20 @@ void read_concentrated(Builder& builder, const Block& block) {
     if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, nodes)) continue;
     for (const auto node : nodes) {
       if (is_angle_of_joint(builder, node, static_cast<int>(dof) - 1, row)) break;
+      if (follower && !rotations.has(node)) {
+        row.error(fmt::format("node {} does not turn, so that nothing says where a force that follows it points; nodes of shells, beams and "
+                              "ROTARYI elements and reference nodes of rigid bodies turn; elsewhere leave FOLLOWER out",
+                              builder.model.node_name(node)));
+        break;
+      }
       if (dof > 3 && !rotations.has(node)) {
         row.error(fmt::format("node {} cannot take a moment; nodes of shells, beams and ROTARYI elements and reference nodes of rigid "
                               "bodies can",
                               builder.model.node_name(node)));
         break;
       }
-      const auto [place, added] = index.emplace(std::int64_t{node} * 6 + dof - 1, loads.size());
-      if (added) loads.push_back({node, static_cast<std::int32_t>(dof) - 1});
+      const auto [place, added] = index.emplace(StepDraft::key_of(node, static_cast<std::int32_t>(dof) - 1, follower), loads.size());
+      if (added) loads.push_back({.node = node, .dof = static_cast<std::int32_t>(dof) - 1, .follower = follower});
       auto& load = loads[place->second];
       // Repeated in one step: forces add up. From an earlier step: the new magnitude takes the old one's place.
       const double sum = builder.draft.said_here(load) && load.amplitude == *amplitude ? load.magnitude : 0.0;
@@ -231,7 +238,11 @@ const RegisterKeyword boundary{
       flag("FIXED")},
      read_boundary}};
 const RegisterKeyword cload{
-    {"CLOAD", Phase::history, Place::step, {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY")}, read_concentrated}};
+    {"CLOAD",
+     Phase::history,
+     Place::step,
+     {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY"), flag("FOLLOWER")},
+     read_concentrated}};
 
 }  // namespace
 

@@ -30,7 +30,10 @@ struct StepDraft {
   bool faulty = false;  // a block of it was refused: what that leaves missing is not told
   bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false;  // OP=NEW seen
   std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary
-  std::unordered_map<std::int64_t, std::size_t> concentrated_of;  // node * 6 + dof -> row of Step::concentrated_loads
+  std::unordered_map<std::int64_t, std::size_t> concentrated_of;  // key_of() -> row of Step::concentrated_loads
+  static std::int64_t key_of(std::int32_t node, std::int32_t dof, bool follower) {
+    return std::int64_t{node} * 12 + dof + (follower ? 6 : 0);
+  }
   bool field_replaced = false, history_replaced = false;  // an *OUTPUT of this step took the place of earlier ones
   std::set<PrintOutput::Kind> prints_replaced;  // kinds of *... PRINT that took the place of those of earlier steps
   enum class Output { none, field, history } output = Output::none;  // what the latest *OUTPUT asked for

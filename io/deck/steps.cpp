@@ -85,7 +85,7 @@ void index_nodes(Builder& builder) {
   }
   for (std::size_t row = 0; row < step.concentrated_loads.size(); ++row) {
     const auto& load = step.concentrated_loads[row];
-    builder.draft.concentrated_of[std::int64_t{load.node} * 6 + load.dof] = row;
+    builder.draft.concentrated_of[StepDraft::key_of(load.node, load.dof, load.follower)] = row;
   }
 }
 

@@ -193,7 +193,7 @@ void Writer::loads(const Step& step) {
     header = wanted;
   };
   for (const auto& load : step.concentrated_loads) {
-    head("*CLOAD", load.amplitude);
+    head(load.follower ? "*CLOAD, FOLLOWER" : "*CLOAD", load.amplitude);
     line("{}, {}, {}", node_id(load.node), load.dof + 1, load.magnitude);
   }
   for (const auto& load : step.pressures) {

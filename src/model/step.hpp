@@ -32,6 +32,7 @@ struct ConcentratedLoad {
   std::int32_t dof = 0;
   double magnitude = 0.0;
   double previous = 0.0;        // magnitude reached at the end of the previous step: where a static ramp starts
+  bool follower = false;        // *CLOAD, FOLLOWER: it turns with the node
   std::int32_t amplitude = -1;
   std::int32_t file = -1, line = 0;
 };

@@ -225,7 +225,7 @@ const std::string everything_steps =
     "*STEP, NAME=ONE, NLGEOM\n*STATIC, STABILIZE=1E-4\n0.1, 1., 1E-6, 0.5\n*CONTROLS, PARAMETERS=TIME "
     "INCREMENTATION\n, , , 30\n"
     "*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE\nBOTTOM, ROAD\n*BOUNDARY, AMPLITUDE=TABLE\n7, 1, 2, 0.3\n*BOUNDARY\n100, "
-    "1, 6\n*CLOAD\n8, 3, 2.\n*DSLOAD\nBOTTOM, P, 0.2\n"
+    "1, 6\n*CLOAD\n8, 3, 2.\n*CLOAD, FOLLOWER\n100, 3, 2.\n*CLOAD\n100, 3, 1.\n*DSLOAD\nBOTTOM, P, 0.2\n"
     "*RESTART, WRITE, FREQUENCY=5\n*OUTPUT, FIELD, TIME POINTS=WHEN, PRECISION=DOUBLE\n*NODE OUTPUT, NSET=ALLN\nU\n*ELEMENT "
     "OUTPUT, ELSET=SKIN, POSITION=INTEGRATION POINTS\nS\n"
     "*END STEP\n*STEP, NAME=TWO\n*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n1E-7, 1E-5\n*BULK VISCOSITY\n0.1, 0.\n*MODEL "
@@ -262,6 +262,9 @@ TEST(DeckWriter, WhatIsWrittenReadsBackTheSame) {
   ASSERT_EQ(again.steps.size(), 2u);
   EXPECT_EQ(again.steps[0].boundary.size(), model.steps[0].boundary.size());
   EXPECT_EQ(again.steps[1].concentrated_loads[0].previous, 2.0);
+  ASSERT_EQ(again.steps[0].concentrated_loads.size(), 3u);
+  EXPECT_TRUE(again.steps[0].concentrated_loads[1].follower);
+  EXPECT_FALSE(again.steps[0].concentrated_loads[2].follower);
   EXPECT_EQ(again.steps[1].active_contact_pairs, model.steps[1].active_contact_pairs);
   EXPECT_EQ(again.steps[0].field_outputs[0].time_points, model.steps[0].field_outputs[0].time_points);
   EXPECT_EQ(again.steps[1].history_outputs[0].nodes[0].variables, model.steps[1].history_outputs[0].nodes[0].variables);

@@ -85,6 +85,8 @@ inline void add_loads(Model& model) {
   step.pressures.push_back({.surface = 1, .magnitude = 3.0});
   step.concentrated_loads.push_back({.node = hub, .dof = 4, .magnitude = 2.0});
   step.concentrated_loads.push_back({.node = row(2, 1, 1), .dof = 1, .magnitude = 5.0});
+  step.concentrated_loads.push_back({.node = hub, .dof = 0, .magnitude = 7.0, .follower = true});
+  step.concentrated_loads.push_back({.node = hub, .dof = 4, .magnitude = -3.0, .follower = true});
 }
 
 inline Model beam() {
