@@ -24,6 +24,7 @@ const char* topology_of(const std::string& type) {
     case Shape::hexahedron: return "Hexahedron";
     case Shape::tetrahedron: return "Tetrahedron";
     case Shape::quadratic_tetrahedron: return "Tetrahedron_10";
+    case Shape::quadratic_wedge: return "Wedge_15";
     case Shape::quadratic_hexahedron: return "Hexahedron_20";
     case Shape::point: break;
   }

@@ -29,6 +29,7 @@ int nodes_of_an_edge(Shape shape) {
     case Shape::quadratic_hexahedron:
       return 8;
     case Shape::quadratic_tetrahedron:
+    case Shape::quadratic_wedge:
       return 6;
     case Shape::quadrilateral:
     case Shape::triangle:

@@ -16,21 +16,6 @@ constexpr double stretch = 0.1;  // of bounds, so that points a little outside f
 
 using Natural = std::array<double, 3>;
 
-/// Triangle times line: corners of the lower face, then of the upper.
-struct WedgeValues {
-  static constexpr int nodes = 6;
-  static double value(int node, const Natural& at) { return triangle(node % 3, at) * 0.5 * (1.0 + side(node) * at[2]); }
-  static double slope(int node, int axis, const Natural& at) {
-    if (axis == 2) return 0.5 * side(node) * triangle(node % 3, at);
-    const double along = node % 3 == 0 ? -1.0 : node % 3 - 1 == axis ? 1.0 : 0.0;
-    return along * 0.5 * (1.0 + side(node) * at[2]);
-  }
-
- private:
-  static double triangle(int corner, const Natural& at) { return corner == 0 ? 1.0 - at[0] - at[1] : at[corner - 1]; }
-  static double side(int node) { return node < 3 ? -1.0 : 1.0; }
-};
-
 /// How far natural coordinates lie outside of a cube -1 .. 1, of the unit tetrahedron, of the wedge.
 double beyond_cube(const Natural& at) { return std::max({std::abs(at[0]), std::abs(at[1]), std::abs(at[2])}) - 1.0; }
 double beyond_tetrahedron(const Natural& at) { return std::max({-at[0], -at[1], -at[2], at[0] + at[1] + at[2] - 1.0}); }
@@ -65,6 +50,8 @@ std::optional<Kind> find_kind(const ElementType& type) {
       return kind_of<QuadraticTetrahedronShape>({0.25, 0.25, 0.25}, beyond_tetrahedron);
     case Shape::wedge:
       return kind_of<WedgeValues>({third, third, 0.0}, beyond_wedge);
+    case Shape::quadratic_wedge:
+      return kind_of<QuadraticWedgeShape>({third, third, 0.0}, beyond_wedge);
     default:
       return std::nullopt;
   }

@@ -21,6 +21,7 @@ enum class Shape {
   wedge,
   hexahedron,
   quadratic_tetrahedron,  // corners, then the middles of the edges
+  quadratic_wedge,
   quadratic_hexahedron
 };
 
@@ -44,6 +45,8 @@ struct ElementType {
   /// Integrals of N_I N_J over the reference volume (row-major, square), from which implicit steps make consistent masses and
   /// loads; null: they lump both, as explicit steps do.
   void (*shape_products)(std::span<const Point> nodes, std::span<double> products) = nullptr;
+  /// Values of the shape functions at an integration point, one a node; null: the type tells no COORD.
+  void (*point_shapes)(int point, std::span<double> values) = nullptr;
 };
 
 /// All local nodes of a face, corners first.

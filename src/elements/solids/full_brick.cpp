@@ -19,7 +19,8 @@ const RegisterElement registered({.name = "C3D8",
                                   .section = Section::Kind::solid,
                                   .faces = hexahedron_faces(),
                                   .cycle_cost = 470,
-                                  .make_group = make_group});
+                                  .make_group = make_group,
+                                  .point_shapes = point_shapes<TrilinearValues>});
 
 }  // namespace
 

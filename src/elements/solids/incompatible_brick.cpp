@@ -19,7 +19,8 @@ const RegisterElement registered({.name = "C3D8I",
                                   .section = Section::Kind::solid,
                                   .faces = hexahedron_faces(),
                                   .cycle_cost = 1300,
-                                  .make_group = make_group});
+                                  .make_group = make_group,
+                                  .point_shapes = point_shapes<TrilinearValues>});
 
 }  // namespace
 

@@ -66,20 +66,53 @@ struct NodalShape {
   }
 };
 
-/// Gauss's points on -1 .. 1 in three directions, the first running fastest.
+/// Gauss's n points on -1 .. 1: (place, weight).
+template <int n>
+constexpr std::array<std::array<double, 2>, n> gauss_line() {
+  constexpr double two = 0.57735026918962576451, three = 0.77459666924148337704;  // 1 / sqrt(3), sqrt(3 / 5)
+  if constexpr (n == 2)
+    return {{{-two, 1.0}, {two, 1.0}}};
+  else
+    return {{{-three, 5.0 / 9.0}, {0.0, 8.0 / 9.0}, {three, 5.0 / 9.0}}};
+}
+
+/// Those points in three directions, the first running fastest.
 template <int n>
 constexpr std::array<Station, n * n * n> gauss_stations() {
-  constexpr double two = 0.57735026918962576451, three = 0.77459666924148337704;  // 1 / sqrt(3), sqrt(3 / 5)
-  constexpr std::array<double, 2> place_of_two{-two, two}, weight_of_two{1.0, 1.0};
-  constexpr std::array<double, 3> place_of_three{-three, 0.0, three}, weight_of_three{5.0 / 9.0, 8.0 / 9.0, 5.0 / 9.0};
-  const auto place = [&](int i) { return n == 2 ? place_of_two[i] : place_of_three[i]; };
-  const auto weight = [&](int i) { return n == 2 ? weight_of_two[i] : weight_of_three[i]; };
+  constexpr auto line = gauss_line<n>();
   std::array<Station, n * n * n> stations{};
   for (int k = 0; k < n; ++k)
     for (int j = 0; j < n; ++j)
       for (int i = 0; i < n; ++i)
-        stations[(k * n + j) * n + i] = {{place(i), place(j), place(k)}, weight(i) * weight(j) * weight(k)};
+        stations[(k * n + j) * n + i] = {{line[i][0], line[j][0], line[k][0]}, line[i][1] * line[j][1] * line[k][1]};
   return stations;
+}
+
+/// Six points of the triangle xi, eta >= 0, xi + eta <= 1, exact to the fourth degree (Dunavant 1985).
+constexpr std::array<Station, 6> six_triangle_stations() {
+  constexpr double a = 0.44594849091596488632, b = 0.09157621350977074346;
+  constexpr double w_a = 0.11169079483900573285, w_b = 0.05497587182766093382;
+  constexpr double far_a = 1.0 - 2.0 * a, far_b = 1.0 - 2.0 * b;
+  return {{{{a, a, 0.0}, w_a}, {{far_a, a, 0.0}, w_a}, {{a, far_a, 0.0}, w_a},
+           {{b, b, 0.0}, w_b}, {{far_b, b, 0.0}, w_b}, {{b, far_b, 0.0}, w_b}}};
+}
+
+/// Stations of a triangle by n Gauss points along the third axis, those of the triangle running fastest.
+template <int count, int n>
+constexpr std::array<Station, count * n> product_stations(const std::array<Station, count>& triangle) {
+  constexpr auto line = gauss_line<n>();
+  std::array<Station, count * n> stations{};
+  for (int k = 0; k < n; ++k)
+    for (int i = 0; i < count; ++i)
+      stations[k * count + i] = {{triangle[i].at[0], triangle[i].at[1], line[k][0]}, triangle[i].weight * line[k][1]};
+  return stations;
+}
+
+/// Those of wedges: three points, exact to the second degree, by n.
+template <int n>
+constexpr std::array<Station, 3 * n> wedge_stations() {
+  constexpr double a = 1.0 / 6.0, b = 2.0 / 3.0;
+  return product_stations<3, n>(std::array<Station, 3>{{{{a, a, 0.0}, a}, {{b, a, 0.0}, a}, {{a, b, 0.0}, a}}});
 }
 
 /// Four points of the unit tetrahedron, exact to the second degree.
@@ -174,6 +207,62 @@ struct SerendipityShape : NodalShape<SerendipityShape<n>, 20, n * n * n> {
   static constexpr std::array<double, 20> mass_share = NodalShape<SerendipityShape<n>, 20, n * n * n>::diagonal_shares();
 };
 
+/// Triangle times line, xi, eta >= 0, xi + eta <= 1, -1 <= zeta <= 1: corners of the lower face, then of the upper.
+struct WedgeValues {
+  static constexpr int nodes = 6;
+  static constexpr double triangle(int corner, const std::array<double, 3>& at) {
+    return corner == 0 ? 1.0 - at[0] - at[1] : at[corner - 1];
+  }
+  static constexpr double triangle_slope(int corner, int axis) { return corner == 0 ? -1.0 : corner - 1 == axis ? 1.0 : 0.0; }
+  static constexpr double side(int node) { return node < 3 ? -1.0 : 1.0; }
+  static constexpr double value(int node, const std::array<double, 3>& at) {
+    return triangle(node % 3, at) * 0.5 * (1.0 + side(node) * at[2]);
+  }
+  static constexpr double slope(int node, int axis, const std::array<double, 3>& at) {
+    if (axis == 2) return 0.5 * side(node) * triangle(node % 3, at);
+    return triangle_slope(node % 3, axis) * 0.5 * (1.0 + side(node) * at[2]);
+  }
+  static constexpr auto stations() { return wedge_stations<2>(); }
+};
+
+inline constexpr std::array<std::array<int, 2>, 9> wedge_edges{
+    {{0, 1}, {1, 2}, {2, 0}, {3, 4}, {4, 5}, {5, 3}, {0, 3}, {1, 4}, {2, 5}}};
+
+/// Serendipity wedge of 15 nodes with three points on the triangle by n along the axis.
+template <int n>
+struct SerendipityWedgeShape : NodalShape<SerendipityWedgeShape<n>, 15, 3 * n> {
+  static constexpr bool natural_modes = false, explicit_steps = false;
+  static constexpr double value(int node, const std::array<double, 3>& at) {
+    if (node >= 12) return WedgeValues::triangle(node - 12, at) * (1.0 - at[2] * at[2]);
+    const auto [first, second] = corners_of(node);
+    const double own = WedgeValues::triangle(first % 3, at), side = WedgeValues::side(first) * at[2];
+    if (node >= 6) return 2.0 * own * WedgeValues::triangle(second % 3, at) * (1.0 + side);
+    return 0.5 * own * (1.0 + side) * (2.0 * own + side - 2.0);
+  }
+  static constexpr double slope(int node, int axis, const std::array<double, 3>& at) {
+    if (node >= 12)
+      return axis == 2 ? -2.0 * at[2] * WedgeValues::triangle(node - 12, at)
+                       : WedgeValues::triangle_slope(node - 12, axis) * (1.0 - at[2] * at[2]);
+    const auto [first, second] = corners_of(node);
+    const double own = WedgeValues::triangle(first % 3, at), other = WedgeValues::triangle(second % 3, at);
+    const double sign = WedgeValues::side(first), side = sign * at[2];
+    const double own_slope = WedgeValues::triangle_slope(first % 3, axis),
+                 other_slope = WedgeValues::triangle_slope(second % 3, axis);
+    if (node >= 6) return axis == 2 ? 2.0 * own * other * sign : 2.0 * (own_slope * other + own * other_slope) * (1.0 + side);
+    return axis == 2 ? 0.5 * own * sign * (2.0 * own + 2.0 * side - 1.0)
+                     : 0.5 * own_slope * (1.0 + side) * (4.0 * own + side - 2.0);
+  }
+  static constexpr auto stations() { return wedge_stations<n>(); }
+  static constexpr auto mass_stations() { return product_stations<6, 3>(six_triangle_stations()); }
+  static constexpr std::array<double, 15> mass_share = NodalShape<SerendipityWedgeShape<n>, 15, 3 * n>::diagonal_shares();
+
+ private:
+  /// The corners between which a node lies; a corner itself, twice.
+  static constexpr std::array<int, 2> corners_of(int node) { return node < 6 ? std::array{node, node} : wedge_edges[node - 6]; }
+};
+
+using QuadraticWedgeShape = SerendipityWedgeShape<3>;
+
 /// What shape_products needs of the trilinear brick.
 struct TrilinearValues {
   static constexpr int nodes = 8;
@@ -186,8 +275,15 @@ struct TrilinearValues {
     const int next = (axis + 1) % 3, last = (axis + 2) % 3;
     return 0.125 * sign[axis] * (1.0 + sign[next] * at[next]) * (1.0 + sign[last] * at[last]);
   }
+  static constexpr auto stations() { return gauss_stations<2>(); }
   static constexpr auto mass_stations() { return gauss_stations<2>(); }
 };
+
+/// ElementType::point_shapes.
+template <class Shape>
+void point_shapes(int point, std::span<double> values) {
+  for (int node = 0; node < Shape::nodes; ++node) values[node] = Shape::value(node, Shape::stations()[point].at);
+}
 
 /// Integrals of N_I N_J (ElementType::shape_products).
 template <class Shape>

@@ -22,7 +22,8 @@ ElementType brick(const char* name) {
           .face_midsides = midsides(hexahedron_faces(), hexahedron_edges, 8),
           .implicit_only = true,
           .make_group = make_group<n>,
-          .shape_products = shape_products<SerendipityShape<n>>};
+          .shape_products = shape_products<SerendipityShape<n>>,
+          .point_shapes = point_shapes<SerendipityShape<n>>};
 }
 
 const RegisterElement full(brick<3>("C3D20")), reduced(brick<2>("C3D20R"));

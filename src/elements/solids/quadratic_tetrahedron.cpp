@@ -19,7 +19,8 @@ const RegisterElement registered({.name = "C3D10",
                                   .face_midsides = midsides(tetrahedron_faces(), tetrahedron_edges, 4),
                                   .cycle_cost = 600,
                                   .make_group = make_group,
-                                  .shape_products = shape_products<QuadraticTetrahedronShape>});
+                                  .shape_products = shape_products<QuadraticTetrahedronShape>,
+                                  .point_shapes = point_shapes<QuadraticTetrahedronShape>});
 
 }  // namespace
 

@@ -25,7 +25,8 @@ const RegisterElement registered({.name = "C3D8R",
                                   .section = Section::Kind::solid,
                                   .faces = hexahedron_faces(),
                                   .cycle_cost = 67,
-                                  .make_group = make_group});
+                                  .make_group = make_group,
+                                  .point_shapes = [](int, std::span<double> values) { std::ranges::fill(values, 0.125); }});
 
 }  // namespace
 

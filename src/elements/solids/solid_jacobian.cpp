@@ -38,6 +38,8 @@ SmallestJacobian smallest_jacobian(Shape shape, std::span<const Point> nodes) {
       return smallest<WedgeShape>(nodes);
     case Shape::quadratic_tetrahedron:
       return smallest<QuadraticTetrahedronShape>(nodes);
+    case Shape::quadratic_wedge:
+      return smallest<QuadraticWedgeShape>(nodes);
     case Shape::quadratic_hexahedron:
       return smallest<SerendipityShape<3>>(nodes);
     default:

@@ -17,7 +17,8 @@ const RegisterElement registered({.name = "C3D4",
                                   .section = Section::Kind::solid,
                                   .faces = tetrahedron_faces(),
                                   .cycle_cost = 50,
-                                  .make_group = make_group});
+                                  .make_group = make_group,
+                                  .point_shapes = point_shapes<TetrahedronShape>});
 
 }  // namespace
 

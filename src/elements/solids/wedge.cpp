@@ -17,7 +17,8 @@ const RegisterElement registered({.name = "C3D6",
                                   .section = Section::Kind::solid,
                                   .faces = wedge_faces(),
                                   .cycle_cost = 275,
-                                  .make_group = make_group});
+                                  .make_group = make_group,
+                                  .point_shapes = point_shapes<WedgeValues>});
 
 }  // namespace
 

@@ -26,9 +26,12 @@ std::ostream& operator<<(std::ostream& out, const Parameter& p) {
 const std::vector<double> rubber{0.5, 0.05};  // C10, D1: bulk / shear = 40
 const std::vector<double> moduli{120.0, 30.0, 100.0, 25.0, 20.0, 90.0, 30.0, 35.0, 40.0};
 
+const std::vector<double> all_moduli{120.0, 30.0, 100.0, 25.0, 20.0, 90.0, 5.0, -4.0, 3.0, 30.0, 2.0,
+                                     6.0,   -3.0, 4.0,   35.0, -2.0, 3.0,  5.0, 2.0,  -4.0, 40.0};
+
 std::vector<Parameter> all_parameters() {
   std::vector<Parameter> all;
-  for (const std::string type : {"C3D8R", "C3D8", "C3D6", "C3D4", "C3D10", "C3D20", "C3D20R", "C3D8I"}) {
+  for (const std::string type : {"C3D8R", "C3D8", "C3D6", "C3D4", "C3D10", "C3D20", "C3D20R", "C3D8I", "C3D15"}) {
     if (find_element_type(type) == nullptr) continue;
     all.push_back({type, "elastic", {1000.0, 0.3}});
     all.push_back({type, "neo-hooke", rubber});
@@ -38,6 +41,7 @@ std::vector<Parameter> all_parameters() {
   all.push_back({"C3D8R", "neo-hooke", rubber, HourglassControl::stiffness});
   all.push_back({"C3D8", "elastic", {1000.0, 0.3}, HourglassControl::enhanced, true});
   all.push_back({"C3D8", "neo-hooke", rubber, HourglassControl::enhanced, true});
+  all.push_back({"C3D8", "anisotropic", all_moduli});
   return all;
 }
 

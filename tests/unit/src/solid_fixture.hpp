@@ -130,7 +130,7 @@ inline SolidCase make_case(const SolidOptions& options, std::vector<Point> point
 
 /// Corners of the elements of a type that fill a brick.
 inline std::vector<int> corners_in_brick(const ElementType& type) {
-  if (type.shape == Shape::wedge) return {0, 1, 2, 4, 5, 6, 0, 2, 3, 4, 6, 7};
+  if (type.shape == Shape::wedge || type.shape == Shape::quadratic_wedge) return {0, 1, 2, 4, 5, 6, 0, 2, 3, 4, 6, 7};
   if (type.shape == Shape::tetrahedron || type.shape == Shape::quadratic_tetrahedron)
     return {0, 1, 2, 6, 0, 2, 3, 6, 0, 3, 7, 6, 0, 7, 4, 6, 0, 4, 5, 6, 0, 5, 1, 6};
   return {0, 1, 2, 3, 4, 5, 6, 7};
@@ -157,6 +157,7 @@ class Middles {
 
 inline std::span<const std::array<int, 2>> edges_of(const ElementType& type) {
   if (type.shape == Shape::quadratic_tetrahedron) return tetrahedron_edges;
+  if (type.shape == Shape::quadratic_wedge) return wedge_edges;
   if (type.shape == Shape::quadratic_hexahedron) return hexahedron_edges;
   return {};
 }
