@@ -6,8 +6,9 @@
 #include <cmath>
 #include <utility>
 
-#include "consistent_mass.hpp"
+#include "consistent_loads.hpp"
 #include "constraints/rigid_body.hpp"
+#include "elements/consistent_mass.hpp"
 #include "elements/element_type.hpp"
 #include "elements/failure.hpp"
 #include "explicit_scale.hpp"
@@ -233,6 +234,11 @@ void Analysis::start_step(const Step& step) {
 bool Analysis::takes_part(const ElementGroup& group, std::int32_t element) const {
   if (current.step >= static_cast<std::int32_t>(model.steps.size())) return true;
   return !std::ranges::binary_search(model.steps[current.step].removed_elements, ElementRef{group.table(), group.row(element)});
+}
+
+bool Analysis::holds(std::int32_t constraint) const {
+  if (current.step >= static_cast<std::int32_t>(model.steps.size())) return true;
+  return !std::ranges::binary_search(model.steps[current.step].removed_constraints, constraint);
 }
 
 void Analysis::apply_attachments(const Step& step) {

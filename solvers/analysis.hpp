@@ -60,6 +60,8 @@ class Analysis : public ResultSource {
   void start_step(const Step& step);
   /// False for an element that *MODEL CHANGE has taken out of the model in the current step: it has no force and no energy, only mass.
   bool takes_part(const ElementGroup& group, std::int32_t element) const;
+  /// False for a constraint that *EQUATION, REMOVE has taken out of the current step.
+  bool holds(std::int32_t constraint) const;
   /// Body that carries a local node, or -1. Reference nodes are not carried.
   std::int32_t carrier(std::int32_t local_node) const { return carrier_[local_node]; }
   /// Body that turns a local node: it is tied, or the reference node; or -1.

@@ -51,7 +51,8 @@ void ImplicitSystem::add_constraints() {
     if (map_.owned(map_.multiplier_slot(i))) add_constraint(i);
 }
 
-/// A rope that hangs loose: its multiplier vanishes, as a pivot of the sign that constraints have.
+/// A rope that hangs loose, or an equation that the step goes without: its multiplier vanishes, as a pivot of the sign that
+/// constraints have.
 void ImplicitSystem::add_slack(std::size_t local_constraint) {
   const auto index = analysis_.local_constraints[local_constraint];
   analysis_.current.multiplier[analysis_.first_constraint_row[index]] = 0.0;
@@ -104,6 +105,7 @@ void ImplicitSystem::add_constraint(std::size_t local_constraint) {
   const std::size_t nodes = constraint.nodes().size();
   const std::span multipliers(&analysis_.current.multiplier[analysis_.first_constraint_row[index]], rows);
   analysis_.find_places(index, places_);
+  if (!analysis_.holds(index)) return add_slack(local_constraint);
   const bool coupled = constraint.couples_all();
   const std::size_t side = coupled ? width : 12;
   gaps_.assign(rows, 0.0);

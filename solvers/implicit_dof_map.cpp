@@ -109,7 +109,7 @@ void ImplicitDofMap::drop_dependent_rows() {
   for (const auto index : analysis_.local_constraints) {
     const auto& constraint = *analysis_.constraints[index];
     const auto width = static_cast<std::size_t>(constraint.columns());
-    if (constraint.guide() != nullptr) {  // they do not always hold
+    if (constraint.guide() != nullptr || !analysis_.holds(index)) {  // they do not always hold
       std::fill_n(of_guide.begin() + static_cast<std::ptrdiff_t>(first), constraint.rows(), true);
       first += constraint.rows();
       continue;

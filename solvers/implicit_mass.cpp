@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <vector>
 
-#include "consistent_mass.hpp"
 #include "constraints/rigid_body.hpp"
+#include "elements/consistent_mass.hpp"
 #include "elements/element_type.hpp"
 #include "math/rotation.hpp"
 

@@ -1,6 +1,8 @@
 #include "step_driver.hpp"
 
-#include "consistent_mass.hpp"
+#include <algorithm>
+
+#include "consistent_loads.hpp"
 #include "loads/body_load.hpp"
 #include "math/rotation.hpp"
 
@@ -72,6 +74,17 @@ void add_body_load(const Analysis& analysis, const BodyLoad& load, double magnit
 }
 
 }  // namespace
+
+std::vector<double> asked_times(const Step& step) {
+  std::vector<double> times;
+  const auto collect = [&](const auto& outputs) {
+    for (const auto& output : outputs) times.insert(times.end(), output.time_points.begin(), output.time_points.end());
+  };
+  collect(step.field_outputs);
+  collect(step.print_outputs);
+  std::ranges::sort(times);
+  return times;
+}
 
 void add_external_forces(const Analysis& analysis, const Step& step, double step_time, double total_time,
                          const double* position, const NodalForces& forces, std::vector<Point>& moments, CarriedGravity carried) {

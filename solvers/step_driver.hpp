@@ -20,6 +20,8 @@ double load_magnitude(const Model& model, const Step& step, double previous, dou
 
 /// Force or moment of that magnitude on a local node, global directions: one that follows has turned with the node.
 Point concentrated_vector(const Analysis& analysis, const ConcentratedLoad& load, double magnitude);
+/// Times of the step at which its output requests ask for results (*TIME POINTS), sorted: increments that are not fixed end there.
+std::vector<double> asked_times(const Step& step);
 
 /// Gravity on what rigid bodies carry acts on their nodes, or is left out where a caller gives it to the bodies themselves.
 enum class CarriedGravity { on_nodes, left_out };

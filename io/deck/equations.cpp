@@ -77,7 +77,48 @@ std::optional<TermOfSet> read_term(Builder& builder, const Block& block, Fields&
   return term;
 }
 
+/// Rows of the equations whose first term speaks of a degree of freedom of one of the nodes.
+std::vector<std::int32_t> equations_of(const Model& model, const std::vector<std::int32_t>& nodes, std::int64_t dof) {
+  std::vector<std::int32_t> rows;
+  for (std::size_t row = 0; row < model.constraints.size(); ++row) {
+    const auto* equation = std::get_if<LinearEquation>(&model.constraints[row].kind);
+    if (equation == nullptr || model.constraints[row].keyword != "*EQUATION") continue;
+    const auto& term = equation->terms.front();
+    if (term.dof == dof && std::ranges::count(nodes, term.node) > 0) rows.push_back(static_cast<std::int32_t>(row));
+  }
+  return rows;
+}
+
+/// REMOVE: lines "node or set, degree of freedom" of first terms; REMOVE ALL: every equation.
+void remove_equations(Builder& builder, const Block& block) {
+  if (!builder.in_step) return builder.error(block, block.location, "REMOVE takes equations out of a step; move it into one");
+  auto& removed = builder.model.steps.back().removed_constraints;
+  const bool all = block.has("REMOVE ALL");
+  for (std::int32_t row = 0; all && row < std::ssize(builder.model.constraints); ++row)
+    if (builder.model.constraints[row].keyword == "*EQUATION") removed.push_back(row);
+  if (all && !block.lines.empty()) builder.error(block, block.lines.front().location, "REMOVE ALL takes no lines; remove them");
+  if (!all && block.lines.empty())
+    builder.error(block, block.location, "which equations is not said; add lines: node or set, degree of freedom");
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    std::vector<std::int32_t> nodes;
+    const auto dof = row.integer(1, "degree of freedom");
+    row.at_most(2);
+    if (all || !row.ok() || !builder.nodes_of(row.text(0), block, line.location, nodes)) continue;
+    const auto rows = equations_of(builder.model, nodes, dof - 1);
+    if (rows.empty())
+      row.error(fmt::format("no *EQUATION has degree of freedom {} of {} as its first term; correct the line", dof, row.text(0)));
+    removed.insert(removed.end(), rows.begin(), rows.end());
+  }
+  std::ranges::sort(removed);
+  removed.erase(std::unique(removed.begin(), removed.end()), removed.end());
+}
+
 void read_equation(Builder& builder, const Block& block) {
+  if (block.has("REMOVE") || block.has("REMOVE ALL")) return remove_equations(builder, block);
+  if (builder.in_step)
+    return builder.error(block, block.location,
+                         "equations hold from the start; move it before the first *STEP, or take equations out with REMOVE");
   Fields fields(builder, block);
   if (fields.done()) return builder.error(block, block.location, "the number of terms is missing; add a data line with it");
   while (!fields.done()) {
@@ -207,16 +248,50 @@ void read_turning_joint(Builder& builder, const Block& block, Row& row, const st
       "*MPC", row.location());
 }
 
+/// MEANROT: a, a, a, b, b, b ... c: the mean angle by which nodes a, b ... turn about the direction that the coordinates of c say
+/// is the first displacement of c.
+void read_mean_rotation(Builder& builder, Row& row, std::vector<std::int32_t> nodes) {
+  bool fits = nodes.size() >= 7 && nodes.size() % 3 == 1;
+  for (std::size_t i = 0; fits && i + 1 < nodes.size(); i += 3)
+    fits = nodes[i] == nodes[i + 1] && nodes[i] == nodes[i + 2] && nodes[i] != nodes.back();
+  if (!fits)
+    return row.error("MEANROT is followed by a, a, a, b, b, b ... c: each node three times, and c whose coordinates are the axis");
+  MeanRotation rotation;
+  rotation.angle_node = nodes.back();
+  rotation.axis = builder.model.nodes.coordinates[rotation.angle_node];
+  const double length = norm(rotation.axis);
+  if (!(length > 0.0)) return row.error("the coordinates of the last node, which are the axis, are zero; give a direction");
+  for (double& component : rotation.axis) component /= length;
+  Point centre{};
+  for (std::size_t i = 0; i + 1 < nodes.size(); i += 3) {
+    rotation.nodes.push_back(nodes[i]);
+    for (int k = 0; k < 3; ++k)
+      centre[k] += 3.0 / static_cast<double>(nodes.size() - 1) * builder.model.nodes.coordinates[nodes[i]][k];
+  }
+  for (const auto node : rotation.nodes) {
+    const auto arm = subtract(builder.model.nodes.coordinates[node], centre);
+    if (!(norm(cross(rotation.axis, arm)) > 1e-6 * norm(arm)))
+      return row.error(fmt::format("node {} lies on the axis through the centre of the nodes, where it has no angle; take it out",
+                                   builder.model.node_name(node)));
+  }
+  add(builder, std::move(rotation), "*MPC", row.location());
+}
+
 void read_mpc(Builder& builder, const Block& block) {
   const auto turns = turning_nodes(builder.model);
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     const auto type = squeeze(row.text(0));
     std::vector<std::int32_t> firsts, seconds;
-    if (type == "PLANE" || type == "STRAIGHT" || type == "DIST") {
+    if (type == "PLANE" || type == "STRAIGHT" || type == "DIST" || type == "MEANROT") {
       std::vector<std::int32_t> nodes;
       if (!nodes_of_line(builder, block, row, nodes)) continue;
-      type == "DIST" ? read_rope(builder, row, nodes) : read_alignment(builder, block, row, std::move(nodes), type == "PLANE");
+      if (type == "DIST")
+        read_rope(builder, row, nodes);
+      else if (type == "MEANROT")
+        read_mean_rotation(builder, row, std::move(nodes));
+      else
+        read_alignment(builder, block, row, std::move(nodes), type == "PLANE");
       continue;
     }
     if (type == "REVOLUTE" || type == "UNIVERSAL") {
@@ -224,7 +299,10 @@ void read_mpc(Builder& builder, const Block& block) {
       continue;
     }
     if (type != "BEAM" && type != "PIN" && type != "TIE" && type != "LINK") {
-      row.error(fmt::format("type {} is not known; there are BEAM, PIN, TIE, LINK, REVOLUTE, UNIVERSAL, PLANE, STRAIGHT and DIST; other joints are connectors (*CONNECTOR SECTION)", row.text(0)));
+      row.error(
+          fmt::format("type {} is not known; there are BEAM, PIN, TIE, LINK, REVOLUTE, UNIVERSAL, PLANE, STRAIGHT, DIST and MEANROT; "
+                      "other joints are connectors (*CONNECTOR SECTION)",
+                      row.text(0)));
       continue;
     }
     if (!row.has(1) || !row.has(2)) {
@@ -260,7 +338,8 @@ void read_mpc(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword equation{{"EQUATION", Phase::constraints, Place::model, {}, read_equation}};
+const RegisterKeyword equation{
+    {"EQUATION", Phase::constraints, Place::anywhere, {flag("REMOVE"), flag("REMOVE ALL")}, read_equation}};
 const RegisterKeyword mpc{{"MPC", Phase::constraints, Place::model, {}, read_mpc}};
 
 }  // namespace

@@ -61,6 +61,7 @@ void inherit(Builder& builder, Step& step) {
   step.connector_loads = before.connector_loads;
   step.active_contact_pairs = before.active_contact_pairs;
   step.removed_elements = before.removed_elements;
+  step.removed_constraints = before.removed_constraints;
   step.field_outputs = before.field_outputs;
   step.history_outputs = before.history_outputs;
   step.print_outputs = before.print_outputs;

@@ -6,6 +6,7 @@
 #include "constraints/guide.hpp"
 #include "constraints/joint.hpp"
 #include "constraints/linear_equation.hpp"
+#include "constraints/mean_rotation.hpp"
 #include "constraints/tie.hpp"
 #include "model/bounding_box.hpp"
 
@@ -27,6 +28,9 @@ struct Make {
     return std::make_unique<DistributingConstraint>(model, kind);
   }
   std::unique_ptr<Constraint> operator()(const Alignment& kind) const { return std::make_unique<AlignmentConstraint>(model, kind); }
+  std::unique_ptr<Constraint> operator()(const MeanRotation& kind) const {
+    return std::make_unique<MeanRotationConstraint>(model, kind);
+  }
   std::unique_ptr<Constraint> operator()(const GreatestDistance& kind) const {
     return std::make_unique<GreatestDistanceConstraint>(model, kind);
   }

@@ -38,6 +38,11 @@ struct NodesOf {
   }
   std::vector<std::int32_t> operator()(const Alignment& kind) const { return kind.nodes; }
   std::vector<std::int32_t> operator()(const GreatestDistance& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
+  std::vector<std::int32_t> operator()(const MeanRotation& kind) const {
+    auto nodes = kind.nodes;
+    nodes.push_back(kind.angle_node);
+    return nodes;
+  }
   std::vector<std::int32_t> operator()(const Joint& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
   std::vector<std::int32_t> operator()(const Guide& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
   std::vector<std::int32_t> operator()(const Tie& kind) const {

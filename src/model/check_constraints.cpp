@@ -26,11 +26,25 @@ std::vector<std::pair<Location, std::string>> check_constraints(const Model& mod
     for (const auto* nodes : {&body.tie_nodes, &body.pin_nodes})
       for (const auto node : *nodes) body_of[node] = index;
   }
+  for (const auto& step : model.steps) {
+    if (step.removed_constraints.empty() || !std::holds_alternative<ExplicitProcedure>(step.procedure)) continue;
+    const auto& definition = model.constraints[step.removed_constraints.front()];
+    errors.emplace_back(
+        Location{definition.file, definition.line},
+        fmt::format(
+            "*EQUATION: step '{}' is explicit and goes without it, which implicit steps alone can; keep it, or make the step "
+            "implicit",
+            step.name));
+  }
   const bool is_explicit = has_step<ExplicitProcedure>(model), is_implicit_dynamic = has_step<DynamicProcedure>(model);
   for (const auto& definition : model.constraints) {
     if (is_explicit && std::holds_alternative<GreatestDistance>(definition.kind))
       errors.emplace_back(Location{definition.file, definition.line},
                           fmt::format("{}: DIST pulls in implicit steps alone; replace it by a spring with a table (*SPRING, NONLINEAR)", definition.keyword));
+    if (is_explicit && std::holds_alternative<MeanRotation>(definition.kind))
+      errors.emplace_back(Location{definition.file, definition.line},
+                          fmt::format("{}: MEANROT turns nodes in implicit steps alone; replace it by *COUPLING with *DISTRIBUTING",
+                                      definition.keyword));
     if (is_implicit_dynamic && std::holds_alternative<Guide>(definition.kind))
       errors.emplace_back(Location{definition.file, definition.line},
                           fmt::format("{}: stops, locks, friction, motions and loads of connectors have no place in implicit *DYNAMIC steps; give the "

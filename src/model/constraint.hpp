@@ -108,7 +108,16 @@ struct GreatestDistance {
   double distance = 0.0;
 };
 
-using ConstraintKind = std::variant<LinearEquation, Joint, DistributingCoupling, Tie, Alignment, GreatestDistance, Guide>;
+/// *MPC MEANROT: the mean of the angles by which nodes turn about their centre, in the plane across a fixed axis, is the displacement
+/// of one more node in its first direction.
+struct MeanRotation {
+  std::vector<std::int32_t> nodes;
+  std::int32_t angle_node = -1;
+  std::array<double, 3> axis{};  // unit
+};
+
+using ConstraintKind =
+    std::variant<LinearEquation, Joint, DistributingCoupling, Tie, Alignment, GreatestDistance, MeanRotation, Guide>;
 
 struct ConstraintDefinition {
   ConstraintKind kind;

@@ -61,6 +61,7 @@ struct NodeSet {
   std::string name;
   std::vector<std::int32_t> nodes;  // sorted rows without repetition, unless the deck said UNSORTED
   std::vector<std::int32_t> deck_order = {};  // the same as the deck lists them, for printed tables; empty: as `nodes`
+  std::vector<std::int64_t> absent = {};      // ids that GENERATE made and no node has: deck_order has -1 - index for them
 };
 
 struct ElementSet {

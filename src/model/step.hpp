@@ -132,6 +132,7 @@ struct PrintOutput {
   Totals totals = Totals::none;
   bool global_directions = true;  // of nodes; false: those of *TRANSFORM
   std::int32_t frequency = 1;     // every n increments, and the last of a step
+  std::vector<double> time_points;  // of the step, in place of `frequency`, and the end of it
 };
 
 /// Convergence controls of *CONTROLS (Abaqus's meanings and defaults).
@@ -259,6 +260,8 @@ struct ModalDynamicProcedure {
     double fraction = 0.0, alpha = 0.0, beta = 0.0;
   };
   double increment = 1.0, duration = 1.0;
+  /// DIRECT=NO: increments grow from the first one as long as no load changes by more than this in one; none: all are alike.
+  std::optional<double> largest_load_change;
   std::int32_t maximum_increments = 100;
   std::vector<Damping> damping;
 };
@@ -277,6 +280,7 @@ struct Step {
   std::vector<ConnectorLoad> connector_loads;
   std::vector<std::int32_t> active_contact_pairs;  // rows of Model::contact_pairs, after *MODEL CHANGE
   std::vector<ElementRef> removed_elements;        // sorted: out of the model in this step, after *MODEL CHANGE
+  std::vector<std::int32_t> removed_constraints;   // sorted rows of Model::constraints that hold no more, after *EQUATION, REMOVE
   std::vector<RigidAttachment> attachments;
   std::vector<FieldOutput> field_outputs;
   std::vector<HistoryOutput> history_outputs;

@@ -1,10 +1,12 @@
 """Geometrically linear steps through the whole program: linear_cases.py CASE PROGRAM FOLDER."""
+import copy
+import os
 import sys
 
 import numpy as np
 
 from static_cases import ELASTIC, cantilever
-from static_model import OUTPUT, Runner, brick, close
+from static_model import OUTPUT, Deck, Runner, brick, close
 
 ENERGY = "*OUTPUT, HISTORY, FREQUENCY=1\n*ENERGY OUTPUT\nALLIE, ALLWK, ETOTAL\n"
 STEP = "*STEP%s\n*STATIC\n1., 1.\n%s\n" + OUTPUT + ENERGY + "*END STEP"
@@ -73,7 +75,74 @@ def then_finite(runner):
         close(np.abs(first - second).max() / np.abs(second).max(), 0.0, 1e-7, "difference in " + what)
 
 
-CASES = {case.__name__: case for case in (superposition, small_strain, then_finite)}
+def equations_removed(runner):
+    """Two bars whose ends an equation joins, then each alone; the next step, of large displacements, goes without it too."""
+    deck = Deck()
+    for number, x in ((1, (0, 0, 0)), (2, (1, 0, 0)), (3, (0, 1, 0)), (4, (1, 1, 0))):
+        deck.add_node(number, *x)
+    deck.elements["T3D2"] = [(1, [1, 2]), (2, [3, 4])]
+    deck.sets["ENDS"] = [2, 4]
+    deck.add("*SOLID SECTION, ELSET=ALL, MATERIAL=M\n0.5\n*MATERIAL, NAME=M\n*ELASTIC\n2000., 0.\n"
+             "*EQUATION\n2\n2, 1, 1., 4, 1, -1.\n*BOUNDARY\n1, 1, 3\n3, 1, 3\nENDS, 2, 3")
+    deck.add(STEP % ("", "*CLOAD\n2, 1, 3."))
+    deck.add(STEP % ("", "*EQUATION, REMOVE\n2, 1"))
+    deck.add(STEP % (", NLGEOM", "*CLOAD\n2, 1, 0."))
+    results = runner.run_alike("removed", deck)
+    for number, step, expected in ((2, 1, 1.5e-3), (4, 1, 1.5e-3), (2, 2, 3e-3), (4, 2, 0.0), (2, 3, 0.0), (4, 3, 0.0)):
+        close(results.at(number, "U", step)[0], expected, 1e-9, "end %d in step %d" % (number, step))
+
+
+def released(runner):
+    """Implicit dynamics go on without an equation that linked two masses: each then moves with the velocity that both had."""
+    deck = Deck()
+    deck.add_node(1, 0, 0, 0)
+    deck.add_node(2, 1, 0, 0)
+    deck.elements["MASS"] = [(1, [1]), (2, [2])]
+    deck.add("*MASS, ELSET=ALL\n2.\n*EQUATION\n2\n2, 1, 1., 1, 1, -1.\n*BOUNDARY\n1, 2, 3\n2, 2, 3")
+    step = ("*STEP, INC=1000%s\n*DYNAMIC, DIRECT, ALPHA=0.\n0.05, 1.\n%s\n"
+            "*OUTPUT, FIELD, FREQUENCY=20, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*END STEP")
+    for nlgeom in ("", ", NLGEOM"):
+        deck_of_one = copy.deepcopy(deck)
+        deck_of_one.add(step % (nlgeom, "*CLOAD\n2, 1, 4."))
+        deck_of_one.add(step % (nlgeom, "*EQUATION, REMOVE ALL"))
+        results = runner.run_alike("released" + nlgeom.strip(", ").lower(), deck_of_one)
+        close(results.at(1, "U", 1)[0], 0.5, 1e-9, "both under the force")
+        close(results.at(1, "U", 2)[0], 1.5, 1e-9, "the one that goes on alone")
+        close(results.at(2, "U", 2)[0], 2.5, 1e-9, "the one that the force drives")
+
+
+def mean_rotation(runner):
+    """A block whose upper corners turn by a mean angle: each turns by it, in large displacements too; the couple at the node of
+    the angle is that which the base bears, and the work of it the strain energy."""
+    for nlgeom, angle in (("", 1e-3), (", NLGEOM", 0.5)):
+        deck = brick((1, 1, 2), (1.0, 1.0, 2.0), "C3D8")
+        deck.sets["BASE"] = deck.where(lambda x, y, z: z < 1e-9)
+        corners = deck.where(lambda x, y, z: z > 2.0 - 1e-9)
+        deck.add_node(99, 0.0, 0.0, 2.0)
+        deck.sets["ANGLE"] = [99]
+        deck.add(ELASTIC.format(young=500.0, poisson=0.0))
+        thrice = ", ".join("%d, %d, %d" % (n, n, n) for n in corners)
+        deck.add("*MPC\nMEANROT, %s, 99" % thrice)
+        deck.add(STEP % (nlgeom, "*BOUNDARY\nBASE, 1, 3\n99, 1, 1, %g\n*NODE PRINT, NSET=ANGLE\nRF" % angle))
+        results = runner.run_alike("turned" + nlgeom.strip(", ").lower(), deck)
+        for n in corners:
+            x, u = np.array(deck.nodes[n]) - 0.5, results.at(n, "U")
+            turned = np.arctan2(x[0] * (x[1] + u[1]) - x[1] * (x[0] + u[0]), x[0] * (x[0] + u[0]) + x[1] * (x[1] + u[1]))
+            close(turned, angle, 1e-6 if nlgeom else 1e-5, "angle of corner %d" % n)
+        couple = 0.0
+        for n in deck.sets["BASE"]:
+            (x, y, _), force = deck.nodes[n], results.at(n, "RF")
+            couple += (x - 0.5) * force[1] - (y - 0.5) * force[0]
+        close(results.at(99, "RF")[0], -couple, 1e-7, "couple")
+        name = "turned" + nlgeom.strip(", ").lower()
+        rows = [line.split() for line in open(os.path.join(runner.folder, name + "_2", name + ".dat"))]
+        close(float([row for row in rows if row[:1] == ["99"]][-1][1]), -couple, 1e-6, "couple in the table")
+        energy = lambda name: results.file["step_1/history/energy/" + name][-1]
+        if not nlgeom:
+            close(energy("ALLIE"), 0.5 * angle * results.at(99, "RF")[0], 1e-6, "strain energy and work")
+
+
+CASES = {case.__name__: case for case in (superposition, small_strain, then_finite, equations_removed, released, mean_rotation)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](Runner(sys.argv[2], sys.argv[3]))

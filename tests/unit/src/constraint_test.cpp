@@ -32,6 +32,9 @@ Model sample_model() {
   model.constraints.push_back({Tie{0, {1, 2, 3}, {0.3, 0.5, 0.2}, true, true}, "*TIE", -1, 0});
   model.constraints.push_back({Tie{0, {1, 2, 3}, {0.3, 0.5, 0.2}, false, false}, "*TIE", -1, 0});
   model.constraints.push_back({LinearEquation{{{0, 0, 1.0}, {1, 1, -2.0}, {2, 5, 0.5}, {0, 3, 0.7}}}, "*EQUATION", -1, 0});
+  model.constraints.push_back({Alignment{{0, 1, 2, 3}}, "*MPC", -1, 0});
+  model.constraints.push_back({Alignment{{0, 1, 2}}, "*MPC", -1, 0});
+  model.constraints.push_back({MeanRotation{{0, 1, 2, 3}, 4, {0.6, 0.0, 0.8}}, "*MPC", -1, 0});
   return model;
 }
 
@@ -100,9 +103,10 @@ TEST(Constraints, CurvaturesAreThoseOfDifferences) {
     const auto width = static_cast<std::size_t>(constraint->columns());
     std::vector<double> multipliers;
     for (int row = 0; row < constraint->rows(); ++row) multipliers.push_back(1.0 + 0.3 * row);
+    const bool coupled = constraint->couples_all();
     std::vector<double> pairs(144 * (constraint->nodes().size() - 1), 0.0), whole(width * width, 0.0);
-    constraint->add_curvature(places, multipliers, pairs);
-    for (std::size_t node = 1; node < constraint->nodes().size(); ++node)
+    constraint->add_curvature(places, multipliers, coupled ? whole : pairs);
+    for (std::size_t node = 1; node < constraint->nodes().size() && !coupled; ++node)
       for (std::size_t i = 0; i < 12; ++i)
         for (std::size_t j = 0; j < 12; ++j) {
           const auto place = [&](std::size_t k) { return k < 6 ? k : 6 * (node - 1) + k; };
@@ -126,7 +130,10 @@ TEST(Constraints, CurvaturesAreThoseOfDifferences) {
 }
 
 TEST(Constraints, NothingIsFeltOfRigidMotions) {
-  const auto model = sample_model();
+  auto model = sample_model();
+  std::erase_if(model.constraints, [](const auto& definition) {  // the others hold in no other place, or feel turns
+    return std::holds_alternative<MeanRotation>(definition.kind) || std::holds_alternative<Alignment>(definition.kind);
+  });
   for (const auto& constraint : make_constraints(model)) {
     if (constraint->is_linear()) continue;
     auto places = places_at_start(model, *constraint);
@@ -139,6 +146,26 @@ TEST(Constraints, NothingIsFeltOfRigidMotions) {
     constraint->gaps(places, gaps);
     for (const double gap : gaps) EXPECT_NEAR(gap, 0.0, 1e-14);
   }
+}
+
+/// A turn about the axis is the first displacement of the last node; shifts, and motions along the axis, are none.
+TEST(Constraints, TheMeanRotationIsThatOfARigidTurn) {
+  Model model = sample_model();
+  std::erase_if(model.constraints, [](const auto& definition) { return !std::holds_alternative<MeanRotation>(definition.kind); });
+  const auto constraint = std::move(make_constraints(model).front());
+  auto places = places_at_start(model, *constraint);
+  const double angle = 0.9;
+  for (std::size_t i = 0; i + 1 < places.size(); ++i) {
+    const double along = 0.1 * static_cast<double>(i);
+    places[i].position = rotation_matrix(exponential(Vector3<double>{{0.6 * angle, 0.0, 0.8 * angle}})) * places[i].position +
+                         Vector3<double>{{2.0 + 0.6 * along, -1.0, 3.0 + 0.8 * along}};
+  }
+  std::vector<double> gap(3);
+  constraint->gaps(places, gap);
+  EXPECT_GT(gap[0], 0.1);
+  places.back().position[0] += angle;
+  constraint->gaps(places, gap);
+  EXPECT_NEAR(gap[0], 0.0, 1e-14);
 }
 
 TEST(Constraints, RowsThatOthersImplyAreFound) {

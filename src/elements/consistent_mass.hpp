@@ -1,12 +1,11 @@
-// Consistent masses and loads of quadratic elements in implicit steps: lumped ones would bend them under their own
-// weight. The C3D8 of pointwise dilatation has them, too.
+// Consistent masses of quadratic elements in implicit steps: lumped ones would bend them under their own weight. The C3D8 of pointwise
+// dilatation has them, too.
 #pragma once
 
-#include <functional>
 #include <span>
 #include <vector>
 
-#include "analysis.hpp"
+#include "elements/element_group.hpp"
 
 namespace balocco {
 
@@ -30,13 +29,5 @@ class ConsistentMass {
   std::vector<Point> nodes_;
   std::vector<double> products_, sums_;
 };
-
-/// True while the current step is an implicit one.
-bool loads_are_consistent(const Analysis& analysis);
-
-/// What a centrifugal load adds to sums of share * acceleration at each node, share being row_sums(): the force on a
-/// node depends on where the others of its element are. `force`: 4 doubles a node, the fourth is the rounding constant.
-void add_centrifugal_coupling(const Analysis& analysis, const BodyLoad& load, double magnitude, const double* position,
-                              double* force);
 
 }  // namespace balocco
