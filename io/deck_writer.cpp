@@ -113,7 +113,8 @@ void Writer::sets() {
           std::adjacent_find(set.nodes.begin(), set.nodes.end(), std::greater_equal<>()) == set.nodes.end();
       line("*NSET, NSET={}{}", quoted(set.name), sorted ? "" : ", UNSORTED");
       ids.clear();
-      for (const auto row : set.deck_order.empty() ? set.nodes : set.deck_order) ids.push_back(node_id(row));
+      for (const auto row : set.deck_order.empty() ? set.nodes : set.deck_order)
+        if (row >= 0) ids.push_back(node_id(row));
       values(ids);
     }
   }

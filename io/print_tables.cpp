@@ -8,6 +8,7 @@
 #include <fstream>
 #include <map>
 
+#include "elements/consistent_mass.hpp"
 #include "elements/element_type.hpp"
 #include "elements/solids/solid_reference.hpp"
 #include "gather.hpp"
@@ -84,12 +85,18 @@ void PrintTables::start_step(const ResultSource& source, std::int32_t step) {
   requests_.clear();
   modes_.clear();
   tables_of_modes_.clear();
-  for (const auto& output : model_.steps[step].print_outputs) requests_.push_back(plan(source, output));
+  for (const auto& output : model_.steps[step].print_outputs) {
+    requests_.push_back(plan(source, output));
+    requests_.back().schedule.pass(source.state().step_time);
+  }
 }
 
 PrintTables::Request PrintTables::plan(const ResultSource& source, const PrintOutput& output) const {
-  if (output.kind == PrintOutput::Kind::section) return {&output, {}};
-  return {&output, output.kind == PrintOutput::Kind::nodes ? nodes_of(output) : elements_of(source, output)};
+  const double duration = model_.steps[step_].duration();
+  const auto schedule = output.time_points.empty() ? Schedule::every_increments(output.frequency, duration)
+                                                   : Schedule::at(output.time_points, duration);
+  if (output.kind == PrintOutput::Kind::section) return {&output, {}, schedule};
+  return {&output, output.kind == PrintOutput::Kind::nodes ? nodes_of(output) : elements_of(source, output), schedule};
 }
 
 std::vector<PrintTables::Place> PrintTables::nodes_of(const PrintOutput& output) const {
@@ -101,6 +108,10 @@ std::vector<PrintTables::Place> PrintTables::nodes_of(const PrintOutput& output)
                                                            : model_.node_sets[output.set].deck_order;
   std::vector<Place> places;
   for (const auto row : rows) {
+    if (row < 0) {
+      places.push_back({.id = model_.node_sets[output.set].absent[-1 - row]});
+      continue;
+    }
     const auto local = domain_.local_node[row];
     places.push_back({model_.nodes.id[row], -1, row, local >= 0 && domain_.owned[local] ? local : -1});
   }
@@ -153,9 +164,10 @@ std::string PrintTables::table(const Request& request, const std::string& variab
       lines += table_row(request.places[i].id, points[i] == 0 ? -1 : point, std::span(&*value, columns));
       for (std::size_t c = 0; c < columns; ++c) sum[c] += *(value + static_cast<std::ptrdiff_t>(c));
     }
-  if (output.totals != PrintOutput::Totals::only)
+  const bool has_totals = !title_of_totals(variable).empty();
+  if (output.totals != PrintOutput::Totals::only || !has_totals)
     text += "\n " + (of_nodes ? title_of_nodes(variable) : title_of_elements(variable)) + behind + lines;
-  if (output.totals != PrintOutput::Totals::none && !title_of_totals(variable).empty())
+  if (output.totals != PrintOutput::Totals::none && has_totals)
     text += "\n " + title_of_totals(variable) + behind + totals_row(sum);
   return text;
 }
@@ -211,6 +223,21 @@ void PrintTables::turn(const Request& request, const Place& element, bool is_mat
   std::ranges::copy(turned, tensor.begin());
 }
 
+/// Where an integration point is, in linear steps where it was at the start.
+Point PrintTables::coordinates(const ResultSource& source, const Place& element, int point) const {
+  const ElementTable& table = model_.elements[element.table];
+  const auto nodes = source.groups()[element.group]->nodes(element.local);
+  std::vector<double> shares(nodes.size());
+  table.type->point_shapes(point, shares);
+  Point sum{};
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    const double* const x = source.state().linear ? model_.nodes.coordinates[domain_.node_row[nodes[node]]].data()
+                                                  : &source.state().position[4 * static_cast<std::size_t>(nodes[node])];
+    for (int i = 0; i < 3; ++i) sum[i] += shares[node] * x[i];
+  }
+  return sum;
+}
+
 std::vector<double> PrintTables::point_values(const ResultSource& source, const Request& request,
                                               const std::string& printed, std::vector<int>& points) const {
   const std::string variable = source_variable(printed);
@@ -219,13 +246,17 @@ std::vector<double> PrintTables::point_values(const ResultSource& source, const 
     counts.push_back(place.group < 0 ? 0.0 : source.groups()[place.group]->integration_points());
   communicator_.maximum(counts);
   points.assign(counts.begin(), counts.end());
-  const std::size_t columns = is_tensor(printed) ? 6 : 1;
+  const std::size_t columns = is_tensor(printed) ? 6 : printed == "COORD" ? 3 : 1;
   std::vector<double> values, own;
   for (std::size_t i = 0; i < request.places.size(); ++i) {
     const Place& place = request.places[i];
     for (int point = 0; point < points[i]; ++point) {
       values.resize(values.size() + columns, 0.0);
       if (place.group < 0) continue;
+      if (printed == "COORD") {
+        std::ranges::copy(coordinates(source, place, point), values.end() - 3);
+        continue;
+      }
       own.assign(source.groups()[place.group]->output_components(variable), 0.0);
       if (own.empty()) continue;
       source.element(place.group, variable, place.local, point, own);
@@ -240,6 +271,28 @@ std::vector<double> PrintTables::point_values(const ResultSource& source, const 
   return values;
 }
 
+/// By the mass that the step computes with: the consistent one where the element has it and the step is implicit.
+double PrintTables::kinetic_energy(const ElementGroup& group, std::int32_t element, std::span<const double> velocity) const {
+  const auto nodes = group.nodes(element);
+  const auto product = [&](std::size_t a, std::size_t b) {
+    const double* const u = &velocity[3 * static_cast<std::size_t>(nodes[a])];
+    const double* const v = &velocity[3 * static_cast<std::size_t>(nodes[b])];
+    return u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
+  };
+  double twice = 0.0;
+  ConsistentMass consistent(model_, group);
+  if (consistent.exists() && !std::holds_alternative<ExplicitProcedure>(model_.steps[step_].procedure)) {
+    const auto mass = consistent.products(element);
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      for (std::size_t b = 0; b < nodes.size(); ++b) twice += group.density() * mass[a * nodes.size() + b] * product(a, b);
+    return 0.5 * twice;
+  }
+  std::vector<double> mass(nodes.size());
+  group.lumped_mass(element, mass);
+  for (std::size_t node = 0; node < nodes.size(); ++node) twice += mass[node] * product(node, node);
+  return 0.5 * twice;
+}
+
 std::vector<double> PrintTables::whole_values(const ResultSource& source, const Request& request,
                                               const std::string& variable) const {
   std::vector<double> values(request.places.size(), 0.0), velocity(3 * static_cast<std::size_t>(domain_.size())), share;
@@ -252,12 +305,13 @@ std::vector<double> PrintTables::whole_values(const ResultSource& source, const 
       source.element(place.group, variable, place.local, 0, std::span(&values[i], 1));
       continue;
     }
-    share.resize(group.nodes_per_element());
-    variable == "ELKE" ? group.lumped_mass(place.local, share) : group.lumped_volume(place.local, share);
-    for (std::size_t node = 0; node < share.size(); ++node) {
-      const double* const v = &velocity[3 * static_cast<std::size_t>(group.nodes(place.local)[node])];
-      values[i] += variable == "ELKE" ? 0.5 * share[node] * (v[0] * v[0] + v[1] * v[1] + v[2] * v[2]) : share[node];
+    if (variable == "ELKE") {
+      values[i] = kinetic_energy(group, place.local, velocity);
+      continue;
     }
+    share.resize(group.nodes_per_element());
+    group.lumped_volume(place.local, share);
+    for (const double volume : share) values[i] += volume;
   }
   merge_bits(values, communicator_);
   return values;
@@ -281,8 +335,9 @@ void PrintTables::advance(const ResultSource& source, const Progress& progress) 
     const bool buckles = std::holds_alternative<BuckleProcedure>(model_.steps[step_].procedure);
     text = (buckles ? load_factor_table(modes_) : eigenvalue_tables(modes_)) + tables_of_modes_;
   }
-  for (const auto& request : requests_) {
-    if (modes || (progress.increment % request.output->frequency != 0 && !progress.step_finished)) continue;
+  for (auto& request : requests_) {
+    if (modes || !request.schedule.due(progress.step_time, progress.increment, progress.step_finished)) continue;
+    request.schedule.pass(progress.step_time);
     if (text.empty()) text = increment_heading(progress.increment);
     const double time = progress.total_time;
     if (request.output->kind == PrintOutput::Kind::nodes) text += nodal_tables(source, request, time);

@@ -10,6 +10,7 @@
 #include "constraints/nodal_directions.hpp"
 #include "domain.hpp"
 #include "model/results.hpp"
+#include "results_schedule.hpp"
 
 namespace balocco {
 
@@ -41,6 +42,7 @@ class PrintTables {
   struct Request {
     const PrintOutput* output;
     std::vector<Place> places;  // in the order of the deck
+    Schedule schedule;
   };
 
   Request plan(const ResultSource& source, const PrintOutput& output) const;
@@ -52,6 +54,8 @@ class PrintTables {
   std::string element_tables(const ResultSource& source, const Request& request, double time) const;
   std::string table(const Request& request, const std::string& variable, const std::vector<int>& points,
                     const std::vector<double>& values, double time) const;
+  double kinetic_energy(const ElementGroup& group, std::int32_t element, std::span<const double> velocity) const;
+  Point coordinates(const ResultSource& source, const Place& element, int point) const;
   std::vector<double> point_values(const ResultSource& source, const Request& request, const std::string& variable,
                                    std::vector<int>& points) const;
   std::vector<double> whole_values(const ResultSource& source, const Request& request,

@@ -86,6 +86,7 @@ std::string title_of_elements(const std::string& variable) {
       {"MISES", "Mises stress (elem, integ.pnt.,s)"},
       {"PEEQ", "equivalent plastic strain (elem, integ.pnt.,pe)"},
       {"ENER", "internal energy density (elem, integ.pnt.,energy)"},
+      {"COORD", "global coordinates (elem, integ.pnt.,x,y,z)"},
       {"EVOL", "volume (element, volume)"},
       {"ELSE", "internal energy (element, energy)"},
       {"ELKE", "kinetic energy (elem, energy)"}};

@@ -7,6 +7,7 @@
 
 #include "constraint_report.hpp"
 #include "model/diagnostics.hpp"
+#include "step_driver.hpp"
 
 namespace balocco {
 
@@ -30,6 +31,7 @@ ImplicitStep::ImplicitStep(Analysis& analysis, const Step& step, Observer& obser
       linear_(analysis, step, system_, solver_, drive_),
       total_start_(analysis.current.total_time - analysis.current.step_time) {
   drive_.fading.assign(system_.map().slots(), 0.0);
+  time_points_ = asked_times(step);
 }
 
 Outcome ImplicitStep::run() {
@@ -95,10 +97,14 @@ Outcome ImplicitStep::march() {
   return Outcome::finished;
 }
 
-/// The suggested increment, or all that is left of the step where the rest would not be worth an increment.
+/// The suggested increment, or all that is left of the step, or up to the next time point, where the rest would not be worth an
+/// increment.
 double ImplicitStep::next_increment(double suggested) const {
-  const double rest = remaining_time();
+  const double now = analysis_.current.step_time, rest = remaining_time();
   const double least = std::max(increments_.minimum_increment, 1e-9 * step_.duration());
+  const auto mark = std::ranges::find_if(time_points_, [&](double time) { return time > now + 1e-9 * step_.duration(); });
+  if (!increments_.direct && mark != time_points_.end() && *mark - now < rest - least && *mark - now - suggested < least)
+    return *mark - now;
   return rest - suggested < least ? rest : suggested;
 }
 

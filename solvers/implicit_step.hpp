@@ -66,6 +66,7 @@ class ImplicitStep {
   double remaining_time() const { return step_.duration() - analysis_.current.step_time; }
 
   double total_start_ = 0.0;
+  std::vector<double> time_points_;           // at which results are asked for: increments end there, unless they are fixed
   std::vector<std::int32_t> dependent_rows_;  // of State::multiplier
 };
 

@@ -16,6 +16,8 @@ namespace balocco {
 
 namespace {
 
+constexpr double growth = 1.5;  // of increments that are not fixed
+
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
 
@@ -28,6 +30,8 @@ class ModalDynamicStep {
  private:
   Matrix dashpots() const;
   Matrix damping() const;
+  double load_change(double from, double to) const;
+  double next_increment(double last) const;
   void make_propagator(double increment);
   Vector forces(double step_time, double total_time) const;
   void show();
@@ -38,6 +42,7 @@ class ModalDynamicStep {
   Observer& observer_;
   std::vector<Mode> modes_;  // of generalised mass 1
   Vector amplitude_, velocity_;
+  std::vector<double> time_points_;
   Matrix propagator_;  // of amplitudes, velocities, forces and the forces' rates over an increment
 };
 
@@ -56,7 +61,7 @@ ModalDynamicStep::ModalDynamicStep(Analysis& analysis, const Step& step, Observe
       for (double& value : *shape) value /= size;
   }
   amplitude_ = velocity_ = Vector::Zero(static_cast<Eigen::Index>(modes_.size()));
-  make_propagator(procedure_.increment);
+  time_points_ = asked_times(step);
 }
 
 /// What elements without mass resist velocities with, as the modes feel it: the part of their stiffness that grows with velocity_slope.
@@ -100,6 +105,41 @@ Matrix ModalDynamicStep::damping() const {
       sum(number - 1, number - 1) += 2.0 * given.fraction * std::sqrt(square) + given.alpha + given.beta * square;
     }
   return sum;
+}
+
+/// The greatest change of a load of the step between two of its times.
+double ModalDynamicStep::load_change(double from, double to) const {
+  const double total_start = analysis_.current.total_time - analysis_.current.step_time;
+  double greatest = 0.0;
+  const auto look = [&](const auto& loads) {
+    for (const auto& load : loads) {
+      const auto at = [&](double time) {
+        return load_magnitude(analysis_.model, step_, load.previous, load.magnitude, load.amplitude, time, total_start + time);
+      };
+      greatest = std::max(greatest, std::abs(at(to) - at(from)));
+    }
+  };
+  look(step_.concentrated_loads);
+  look(step_.pressures);
+  look(step_.body_loads);
+  return greatest;
+}
+
+/// The increment to try: of fixed length or half as long again as the last one, less where a load would change too much; up to the
+/// next time point or the end where what is left beyond would not be worth an increment.
+double ModalDynamicStep::next_increment(double last) const {
+  const double now = analysis_.current.step_time, resolution = 1e-9 * procedure_.duration;
+  double increment = procedure_.increment;
+  if (procedure_.largest_load_change) {
+    if (last > 0.0) increment = growth * last;
+    if (const double change = load_change(now, std::min(now + increment, procedure_.duration));
+        change > *procedure_.largest_load_change)
+      increment *= *procedure_.largest_load_change / change;
+    const auto mark = std::ranges::find_if(time_points_, [&](double time) { return time > now + resolution; });
+    if (mark != time_points_.end() && now + increment > *mark - resolution) increment = *mark - now;
+  }
+  const double rest = procedure_.duration - now;
+  return rest < (1.0 + 1e-6) * increment ? rest : increment;
 }
 
 /// Exponential of the first-order system: amplitudes q, their velocities, forces f and the rates of these, which are constant.
@@ -165,16 +205,17 @@ Outcome ModalDynamicStep::run() {
   observer_.log(fmt::format("step {} '{}': modal dynamics, {} modes", state.step + 1, step_.name, modes_.size()));
   const double total_start = state.total_time;
   Vector before = forces(0.0, total_start);
+  double last = 0.0;
   // What is written is the response alone: the loads act where the state stands, and are found before that is shown.
   bool go_on = true;
   for (bool ends = false; !ends && go_on;) {
     const State shown = state;
     if (shown.increment >= procedure_.maximum_increments)
       throw AnalysisError(fmt::format("step '{}': all {} increments are used up; allow more with *STEP, INC=", step_.name, procedure_.maximum_increments));
-    const double whole = procedure_.increment, rest = procedure_.duration - shown.step_time;
-    const double increment = rest < (1.0 + 1e-6) * whole ? rest : whole;
-    ends = increment == rest;
-    if (std::abs(increment - whole) > 1e-9 * whole) make_propagator(increment);
+    const double increment = next_increment(last);
+    ends = increment == procedure_.duration - shown.step_time;
+    if (std::abs(increment - last) > 1e-9 * increment) make_propagator(increment);
+    last = increment;
     const double step_time = ends ? procedure_.duration : shown.step_time + increment;
     state = kept;
     const Vector after = forces(step_time, total_start + step_time);

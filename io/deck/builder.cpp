@@ -239,6 +239,13 @@ void Builder::add_to_node_set(std::int32_t set, std::int32_t row) {
   node_set_dirty_[set] = true;
 }
 
+void Builder::add_absent_node(std::int32_t set, std::int64_t id) {
+  auto& [name, nodes, deck_order, absent] = model.node_sets[set];
+  auto index = std::ranges::find(absent, id) - absent.begin();
+  if (index == std::ssize(absent)) absent.push_back(id);
+  deck_order.push_back(static_cast<std::int32_t>(-1 - index));
+}
+
 void Builder::add_to_element_set(std::int32_t set, ElementRef element) {
   model.element_sets[set].elements.push_back(element);
   model.element_sets[set].deck_order.push_back(element);
@@ -257,6 +264,15 @@ const std::vector<ElementRef>& Builder::elements_in(std::int32_t set) {
   if (element_set_dirty_[set]) sort_unique(elements);
   element_set_dirty_[set] = false;
   return elements;
+}
+
+const std::vector<double>* Builder::require_time_points(const Block& block) {
+  const auto found = time_points.find(block.value("TIME POINTS"));
+  if (found != time_points.end()) return &found->second;
+  if (!is_poisoned(block.value("TIME POINTS")))
+    error(block, block.location,
+          fmt::format("time points {} are not defined; define them under *TIME POINTS", block.value("TIME POINTS")));
+  return nullptr;
 }
 
 void Builder::normalize_sets() {

@@ -128,6 +128,8 @@ class Builder {
   std::optional<ElementRef> element(std::int64_t id) const;
   std::optional<std::int32_t> require_node(std::int64_t id, const Block& block, Location location);
 
+  /// What TIME POINTS= of a block names; null if it is undefined (told).
+  const std::vector<double>* require_time_points(const Block& block);
   /// A node id, "INSTANCE.id" or node set. @return false if it is undefined (told).
   bool nodes_of(std::string_view field, const Block& block, Location location, std::vector<std::int32_t>& rows);
   bool elements_of(std::string_view field, const Block& block, Location location, std::vector<ElementRef>& elements);
@@ -139,6 +141,8 @@ class Builder {
   const std::vector<std::int32_t>& nodes_in(std::int32_t set);
   const std::vector<ElementRef>& elements_in(std::int32_t set);
   void add_to_node_set(std::int32_t set, std::int32_t row);
+  /// An id that no node has: tables of the set list it.
+  void add_absent_node(std::int32_t set, std::int64_t id);
   void add_to_element_set(std::int32_t set, ElementRef element);
   void normalize_sets();
 

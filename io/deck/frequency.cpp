@@ -47,7 +47,7 @@ const RegisterKeyword frequency{{"FREQUENCY",
                                  Place::step,
                                  {choice("EIGENSOLVER", {"LANCZOS", "SUBSPACE"}),
                                   choice("NORMALIZATION", {"DISPLACEMENT", "MASS"}), flag("SIM"),
-                                  choice("ACOUSTIC COUPLING", {"ON", "OFF", "PROJECTION"}), foreign("STORAGE")},
+                                  choice("ACOUSTIC COUPLING", {"ON", "OFF", "PROJECTION"}), foreign("STORAGE"), foreign("SOLVER")},
                                  read_frequency}};
 
 }  // namespace

@@ -1,6 +1,8 @@
 // *MODAL DYNAMIC *MODAL DAMPING.
 #include <fmt/format.h>
 
+#include <limits>
+
 #include "deck/builder.hpp"
 #include "deck/register.hpp"
 #include "deck/step_draft.hpp"
@@ -14,6 +16,14 @@ void read_modal_dynamic(Builder& builder, const Block& block) {
   if (!begin_procedure(builder, block)) return;
   auto& procedure = builder.model.steps.back().procedure.emplace<ModalDynamicProcedure>();
   procedure.maximum_increments = builder.draft.maximum_increments;
+  const bool automatic = block.value("DIRECT", "YES") == "NO";
+  if (automatic != block.has("DELTMX"))
+    builder.error(
+        block, block.location,
+        "increments that grow (DIRECT=NO) and the greatest change of a load in one (DELTMX) belong together; give both, or none");
+  if (automatic) procedure.largest_load_change = block.real("DELTMX", 0.0);
+  if (procedure.largest_load_change.value_or(1.0) <= 0.0)
+    builder.error(block, block.location, "DELTMX must be positive; correct it");
   if (block.lines.empty()) return builder.error(block, block.location, "increment and period are missing; add a line: increment, period");
   Row row(builder, block, block.lines[0]);
   procedure.increment = row.real(0, "time increment");
@@ -24,7 +34,8 @@ void read_modal_dynamic(Builder& builder, const Block& block) {
                           procedure.duration));
 }
 
-/// Lines "first mode, last mode, fraction of critical damping", with RAYLEIGH "first mode, last mode, alpha, beta".
+/// Lines "first mode, last mode, fraction of critical damping", with RAYLEIGH "first mode, last mode, alpha, beta". Without a first
+/// mode a line speaks of all.
 void read_modal_damping(Builder& builder, const Block& block) {
   auto* procedure = std::get_if<ModalDynamicProcedure>(&builder.model.steps.back().procedure);
   if (procedure == nullptr) return builder.error(block, block.location, "only *MODAL DYNAMIC has it; put it behind that keyword");
@@ -32,8 +43,9 @@ void read_modal_damping(Builder& builder, const Block& block) {
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     ModalDynamicProcedure::Damping damping;
-    damping.first = static_cast<std::int32_t>(row.integer(0, "first mode"));
-    damping.last = static_cast<std::int32_t>(row.integer_or(1, damping.first, "last mode"));
+    damping.first = static_cast<std::int32_t>(row.integer_or(0, 1, "first mode"));
+    const auto otherwise = row.has(0) ? damping.first : std::numeric_limits<std::int32_t>::max();
+    damping.last = static_cast<std::int32_t>(row.integer_or(1, otherwise, "last mode"));
     (rayleigh ? damping.alpha : damping.fraction) = row.real_or(2, 0.0, rayleigh ? "alpha" : "fraction of critical damping");
     if (rayleigh) damping.beta = row.real_or(3, 0.0, "beta");
     row.at_most(rayleigh ? 4 : 3);
@@ -44,7 +56,11 @@ void read_modal_damping(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword modal_dynamic{{"MODAL DYNAMIC", Phase::history, Place::step, {foreign("SOLVER")}, read_modal_dynamic}};
+const RegisterKeyword modal_dynamic{{"MODAL DYNAMIC",
+                                     Phase::history,
+                                     Place::step,
+                                     {foreign("SOLVER"), choice("DIRECT", {"YES", "NO"}), real("DELTMX")},
+                                     read_modal_dynamic}};
 const RegisterKeyword modal_damping{{"MODAL DAMPING", Phase::history, Place::step, {flag("RAYLEIGH")}, read_modal_damping}};
 
 }  // namespace

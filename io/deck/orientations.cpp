@@ -135,12 +135,13 @@ void read_distribution_table(Builder& builder, const Block& block) {
                   "only directions are distributed, whose table is COORD3D, COORD3D; thicknesses of shells go under *NODAL THICKNESS");
 }
 
+/// CalculiX's decks name no table.
 void read_distribution(Builder& builder, const Block& block) {
   const auto full = builder.define(builder.distributions, block.value("NAME"),
                                    static_cast<std::int32_t>(builder.direction_distributions.size()), block);
   if (!full) return;
   auto& distribution = builder.direction_distributions.emplace_back();
-  if (!builder.distribution_tables.contains(block.value("TABLE")))
+  if (block.has("TABLE") && !builder.distribution_tables.contains(block.value("TABLE")))
     return builder.error(block, block.location,
                          fmt::format("table {} is not defined; define it under *DISTRIBUTION TABLE", block.value("TABLE")));
   for (const auto& line : block.lines) {
@@ -211,7 +212,7 @@ const RegisterKeyword distribution_table{
 const RegisterKeyword distribution{{"DISTRIBUTION",
                                     Phase::surfaces,
                                     Place::model,
-                                    {required(name("NAME")), required(choice("LOCATION", {"ELEMENT"})), required(name("TABLE"))},
+                                    {required(name("NAME")), choice("LOCATION", {"ELEMENT"}), name("TABLE")},
                                     read_distribution}};
 const RegisterKeyword transform{
     {"TRANSFORM", Phase::surfaces, Place::model, {required(name("NSET")), choice("TYPE", {"R", "C"})}, read_transform}};

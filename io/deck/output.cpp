@@ -32,16 +32,9 @@ bool set_times(Builder& builder, const Block& block, FieldOutput& output) {
   if (block.has("TIME INTERVAL")) ++marks, output.time_interval = block.real("TIME INTERVAL", 0.0);
   if (block.has("TIME POINTS")) {
     ++marks;
-    const auto found = builder.time_points.find(block.value("TIME POINTS"));
-    if (found == builder.time_points.end()) {
-      if (!builder.is_poisoned(block.value("TIME POINTS"))) {
-        builder.error(
-            block, block.location,
-            fmt::format("time points {} are not defined; define them under *TIME POINTS", block.value("TIME POINTS")));
-      }
-      return false;
-    }
-    output.time_points = found->second;
+    const auto* points = builder.require_time_points(block);
+    if (points == nullptr) return false;
+    output.time_points = *points;
   }
   if (marks > 1) {
     builder.error(block, block.location, "give one of FREQUENCY, NUMBER INTERVAL, TIME INTERVAL and TIME POINTS");

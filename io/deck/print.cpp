@@ -13,7 +13,7 @@ namespace balocco::deck {
 namespace {
 
 const Words printed_of_nodes{"U", "V", "A", "RF", "UR", "VR", "RM"};
-const Words printed_of_elements{"S", "E", "ME", "LE", "MISES", "PEEQ", "ENER", "EVOL", "ELSE", "ELKE"};
+const Words printed_of_elements{"S", "E", "ME", "LE", "MISES", "PEEQ", "ENER", "COORD", "EVOL", "ELSE", "ELKE"};
 const Words printed_of_sections{"SOF", "SOM", "SOAREA"};
 
 /// The first request of a kind in a step takes the place of those of the steps before.
@@ -31,6 +31,12 @@ std::optional<PrintOutput> begin_print(Builder& builder, const Block& block, Pri
   output.frequency = block.integer("FREQUENCY", 1);
   if (output.frequency < 0) builder.error(block, block.location, "FREQUENCY must not be negative; correct it");
   if (output.frequency <= 0) return std::nullopt;
+  if (block.has("TIME POINTS")) {
+    if (block.has("FREQUENCY")) builder.error(block, block.location, "give one of FREQUENCY and TIME POINTS");
+    const auto* points = builder.require_time_points(block);
+    if (points == nullptr) return std::nullopt;
+    output.time_points = *points;
+  }
   if (block.value("TOTALS") == "YES") output.totals = PrintOutput::Totals::also;
   if (block.value("TOTALS") == "ONLY") output.totals = PrintOutput::Totals::only;
   output.set_name = "ALL";
@@ -66,11 +72,33 @@ void read_node_print(Builder& builder, const Block& block) {
   read_variables(builder, block, printed_of_nodes, *output);
 }
 
+/// Tells an element of the set whose points have no coordinates to be told.
+void check_coordinates(Builder& builder, const Block& block, const PrintOutput& output) {
+  const auto& tables = builder.model.elements;
+  for (std::size_t table = 0; table < tables.size(); ++table) {
+    const ElementType& type = *tables[table].type;
+    if (type.make_group == nullptr || type.point_shapes != nullptr || tables[table].size() == 0) continue;
+    std::int32_t row = 0;
+    if (output.set >= 0) {
+      const auto& elements = builder.model.element_sets[output.set].elements;
+      const auto found = std::ranges::find(elements, static_cast<std::int32_t>(table), &ElementRef::table);
+      if (found == elements.end()) continue;
+      row = found->row;
+    }
+    return builder.error(block, block.location,
+                         fmt::format("COORD is told of points of solids, and element {} is a {}; name a set of solids",
+                                     builder.model.element_name({static_cast<std::int32_t>(table), row}), type.name));
+  }
+}
+
 void read_element_print(Builder& builder, const Block& block) {
   auto output = begin_print(builder, block, PrintOutput::Kind::elements);
   if (!output || !read_set(builder, block, "ELSET", builder.element_sets, builder.model.element_sets, *output)) return;
   output->global_directions = block.value("GLOBAL", "NO") == "YES";
+  const auto row = builder.model.steps.back().print_outputs.size();
   read_variables(builder, block, printed_of_elements, *output);
+  const auto& prints = builder.model.steps.back().print_outputs;
+  if (prints.size() > row && contains(prints.back().variables, "COORD")) check_coordinates(builder, block, prints.back());
 }
 
 /// Forces, moments and area come together, as CalculiX prints them.
@@ -97,17 +125,17 @@ const ParameterRule totals = choice("TOTALS", {"YES", "NO", "ONLY"}), global = c
 const RegisterKeyword node_print{{"NODE PRINT",
                                   Phase::history,
                                   Place::step,
-                                  {name("NSET"), integer("FREQUENCY"), totals, global, foreign("SUMMARY")},
+                                  {name("NSET"), integer("FREQUENCY"), name("TIME POINTS"), totals, global, foreign("SUMMARY")},
                                   read_node_print}};
 const RegisterKeyword section_print{{"SECTION PRINT",
                                      Phase::history,
                                      Place::step,
-                                     {required(name("SURFACE")), required(name("NAME")), integer("FREQUENCY")},
+                                     {required(name("SURFACE")), required(name("NAME")), integer("FREQUENCY"), name("TIME POINTS")},
                                      read_section_print}};
 const RegisterKeyword element_print{{"EL PRINT",
                                      Phase::history,
                                      Place::step,
-                                     {name("ELSET"), integer("FREQUENCY"), totals, global,
+                                     {name("ELSET"), integer("FREQUENCY"), name("TIME POINTS"), totals, global,
                                       choice("POSITION", {"INTEGRATION POINTS"}), foreign("SUMMARY")},
                                      read_element_print}};
 

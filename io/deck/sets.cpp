@@ -58,15 +58,28 @@ bool element_field_known(const Builder& builder, std::string_view field) {
   return builder.find(builder.element_sets, clean_name(field)).has_value();
 }
 
-void collect_generated(Builder& builder, const Block& block, bool of_nodes, std::vector<std::int32_t>& nodes,
-                       std::vector<ElementRef>& elements) {
+/// What a GENERATE block lists: rows of nodes, or elements; `absent`: ids below the greatest of a node that no node has, each with
+/// how many nodes stand before it.
+struct Generated {
+  std::vector<std::int32_t> nodes;
+  std::vector<ElementRef> elements;
+  std::vector<std::pair<std::size_t, std::int64_t>> absent;
+};
+
+void collect_generated(Builder& builder, const Block& block, bool of_nodes, Generated& list) {
+  auto& [nodes, elements, absent] = list;
+  const auto& ids = builder.model.nodes.id;
+  const std::int64_t greatest = ids.empty() || builder.scope != &builder.scopes.front() ? 0 : std::ranges::max(ids);
   for (const auto& line : block.lines) {
     const auto range = range_of(builder, block, line);
     if (!range) continue;
     const std::size_t before = nodes.size() + elements.size();
     for (std::int64_t id = range->first; id <= range->last; id += range->increment) {
       if (of_nodes) {
-        if (const auto row = builder.node(id)) nodes.push_back(*row);
+        if (const auto row = builder.node(id))
+          nodes.push_back(*row);
+        else if (id < greatest)
+          absent.emplace_back(nodes.size(), id);
       } else if (const auto element = builder.element(id)) {
         elements.push_back(*element);
       }
@@ -97,11 +110,11 @@ void collect_nodes_of_elements(Builder& builder, const Block& block, std::vector
 }
 
 void read_node_set(Builder& builder, const Block& block) {
-  std::vector<std::int32_t> nodes;
-  std::vector<ElementRef> none;
+  Generated list;
+  auto& nodes = list.nodes;
   in_instance(builder, block, [&] {
     if (block.has("ELSET")) return collect_nodes_of_elements(builder, block, nodes);
-    if (block.has("GENERATE")) return collect_generated(builder, block, true, nodes, none);
+    if (block.has("GENERATE")) return collect_generated(builder, block, true, list);
     std::vector<std::string_view> fields;
     for (const auto& line : block.lines) {
       split(line.text, fields);
@@ -118,14 +131,18 @@ void read_node_set(Builder& builder, const Block& block) {
   if (builder.put_off) return;
   const std::int32_t set = builder.node_set_row(block.value("NSET"));
   if (block.has("UNSORTED")) builder.unsorted_node_sets.insert(set);
-  for (const auto row : nodes) builder.add_to_node_set(set, row);
+  auto absent = list.absent.begin();
+  for (std::size_t i = 0; i <= nodes.size(); ++i) {
+    for (; absent != list.absent.end() && absent->first == i; ++absent) builder.add_absent_node(set, absent->second);
+    if (i < nodes.size()) builder.add_to_node_set(set, nodes[i]);
+  }
 }
 
 void read_element_set(Builder& builder, const Block& block) {
-  std::vector<std::int32_t> none;
-  std::vector<ElementRef> elements;
+  Generated list;
+  auto& elements = list.elements;
   in_instance(builder, block, [&] {
-    if (block.has("GENERATE")) return collect_generated(builder, block, false, none, elements);
+    if (block.has("GENERATE")) return collect_generated(builder, block, false, list);
     std::vector<std::string_view> fields;
     for (const auto& line : block.lines) {
       split(line.text, fields);

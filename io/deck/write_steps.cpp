@@ -82,7 +82,8 @@ void Writer::procedure(const BuckleProcedure& p) {
 }
 
 void Writer::procedure(const ModalDynamicProcedure& p) {
-  line("*MODAL DYNAMIC\n{}, {}", p.increment, p.duration);
+  line("*MODAL DYNAMIC{}\n{}, {}", p.largest_load_change ? fmt::format(", DIRECT=NO, DELTMX={}", *p.largest_load_change) : "",
+       p.increment, p.duration);
   for (const auto& damping : p.damping) {
     if (damping.fraction != 0.0)
       line("*MODAL DAMPING\n{}, {}, {}", damping.first, damping.last, damping.fraction);
@@ -217,17 +218,19 @@ void Writer::attachments(const Step& step) {
   }
 }
 
+/// Defines time points. @return the parameter that refers to them.
+std::string Writer::time_points(const std::vector<double>& times, const std::string& name) {
+  time_points_ += "*TIME POINTS, NAME=" + name + "\n";
+  for (const double time : times) time_points_ += fmt::format("{}\n", time);
+  return ", TIME POINTS=" + name;
+}
+
 void Writer::field_output(const FieldOutput& output, std::size_t step, std::size_t number) {
   std::string times;
   if (output.frequency) times = fmt::format(", FREQUENCY={}", *output.frequency);
   if (output.number_interval) times = fmt::format(", NUMBER INTERVAL={}", *output.number_interval);
   if (output.time_interval) times = fmt::format(", TIME INTERVAL={}", *output.time_interval);
-  if (!output.time_points.empty()) {
-    const std::string name = fmt::format("TIMES-{}-{}", step + 1, number + 1);
-    time_points_ += "*TIME POINTS, NAME=" + name + "\n";
-    for (const double time : output.time_points) time_points_ += fmt::format("{}\n", time);
-    times = ", TIME POINTS=" + name;
-  }
+  if (!output.time_points.empty()) times = time_points(output.time_points, fmt::format("TIMES-{}-{}", step + 1, number + 1));
   if (times.empty()) return;  // what a deck that asks for no frames gets
   line("*OUTPUT, FIELD{}{}", times, output.single_precision ? "" : ", PRECISION=DOUBLE");
   const auto request = [&](const std::string& keyword, const std::vector<std::string>& variables) {
@@ -267,12 +270,15 @@ void Writer::history_output(const HistoryOutput& output) {
   }
 }
 
-void Writer::print_outputs(const Step& step) {
+void Writer::print_outputs(const Step& step, std::size_t row) {
   bool of_nodes = false, of_elements = false;
   for (const auto& output : step.print_outputs) {
+    const auto number = &output - step.print_outputs.data();
+    const auto times = output.time_points.empty()
+                           ? fmt::format(", FREQUENCY={}", output.frequency)
+                           : time_points(output.time_points, fmt::format("PRINTS-{}-{}", row + 1, number + 1));
     if (output.kind == PrintOutput::Kind::section) {
-      line("*SECTION PRINT, SURFACE={}, NAME={}, FREQUENCY={}", quoted(model_.surfaces[output.set].name), quoted(output.section_name),
-           output.frequency);
+      line("*SECTION PRINT, SURFACE={}, NAME={}{}", quoted(model_.surfaces[output.set].name), quoted(output.section_name), times);
       values(output.variables);
       continue;
     }
@@ -282,7 +288,7 @@ void Writer::print_outputs(const Step& step) {
     if (output.set >= 0)
       text += nodes ? ", NSET=" + quoted(model_.node_sets[output.set].name) : ", ELSET=" + quoted(model_.element_sets[output.set].name);
     if (output.totals != PrintOutput::Totals::none) text += output.totals == PrintOutput::Totals::only ? ", TOTALS=ONLY" : ", TOTALS=YES";
-    line("{}, FREQUENCY={}, GLOBAL={}", text, output.frequency, output.global_directions ? "YES" : "NO");
+    line("{}{}, GLOBAL={}", text, times, output.global_directions ? "YES" : "NO");
     values(output.variables);
   }
   if (!of_nodes) line("*NODE PRINT, FREQUENCY=0");
@@ -344,7 +350,7 @@ void Writer::step(std::size_t row) {
   for (const auto& output : now.history_outputs) history_output(output);
   if (now.history_outputs.empty()) line("*OUTPUT, HISTORY, FREQUENCY=0");
   const Step* const previous = before(model_, row);
-  if (!now.print_outputs.empty() || (previous != nullptr && !previous->print_outputs.empty())) print_outputs(now);
+  if (!now.print_outputs.empty() || (previous != nullptr && !previous->print_outputs.empty())) print_outputs(now, row);
   line("*END STEP");
 }
 

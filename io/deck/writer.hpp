@@ -72,7 +72,8 @@ class Writer {
   void attachments(const Step& step);
   void field_output(const FieldOutput& output, std::size_t step, std::size_t number);
   void history_output(const HistoryOutput& output);
-  void print_outputs(const Step& step);
+  void print_outputs(const Step& step, std::size_t row);
+  std::string time_points(const std::vector<double>& times, const std::string& name);
   void checkpoints(std::size_t row);
 
   std::int64_t node_id(std::int32_t row) const { return model_.nodes.id[row]; }

@@ -2,7 +2,7 @@
 ccx_table.py PROGRAM SHARED FOLDER --check DECK: a test of one.
 
 A deck passes where compare_dat.py of SHARED finds every table within 1e-3 of its largest value. C3D8 is CalculiX's plain 2 x 2 x 2
-brick, and in *FREQUENCY it finds the mass of C3D20R at eight points: to those decks the table adds *SECTION CONTROLS,
+brick, and in *FREQUENCY and under CENTRIF it finds the mass of C3D20R at eight points: to those decks the table adds *SECTION CONTROLS,
 DILATATION=POINTWISE and says so. Of decks that print nothing the displacements
 in CalculiX's .frd are compared at the same times, by the same measure; where it made solids of sheets, with the mean across them.
 """
@@ -43,8 +43,8 @@ CONTROLS = "*SECTION CONTROLS, NAME=PLAIN-BRICK, DILATATION=POINTWISE\n"
 
 
 def with_plain_bricks(text):
-    """The deck with plain bricks in place of C3D8, and of C3D20R whose modes are asked for, or None where it has none."""
-    counts = r"(8|20R)" if re.search(r"^\*FREQUENCY", text, re.I | re.M) else "8"
+    """The deck with plain bricks in place of C3D8, and of C3D20R whose mass counts in modes or turns, or None where it has none."""
+    counts = r"(8|20R)" if re.search(r"^\*FREQUENCY|,\s*CENTRIF", text, re.I | re.M) else "8"
     if not re.search(r"TYPE=C3D" + counts + r"\s*(,|$)", text, re.I | re.M):
         return None
     text = re.sub(r"^(\*SOLID SECTION\s*,)", r"\1CONTROLS=PLAIN-BRICK,", text, flags=re.I | re.M)

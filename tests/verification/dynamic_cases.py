@@ -152,6 +152,25 @@ def modal_response(balocco, folder):
         check("response, damped by %g" % ratio, np.abs(u[:, 0] - force / 1000.0 * (1.0 - fading)).max(), 0.0, 1e-10)
 
 
+def growing_increments(balocco, folder):
+    """DIRECT=NO: increments grow by a half as long as the force changes by no more than DELTMX in one, and stay exact; damping
+    given without modes is that of all."""
+    alpha, rate, duration = 4.0, 5.0, 1.0
+    job = Job("growing", balocco, "1", folder)
+    swing = ("*MODAL DYNAMIC, DIRECT=NO, DELTMX=0.2\n1e-2, %g\n*MODAL DAMPING, RAYLEIGH\n, , %g, 0.\n"
+             "*CLOAD, AMPLITUDE=RAMP\n2, 1, %g" % (duration, alpha, rate))
+    job.run("*AMPLITUDE, NAME=RAMP\n0., 0., 1., 1.\n" + oscillator(["*FREQUENCY\n1", swing], speed=0.0))
+    time, u = job.history("node_2", "U", 2)
+    increments = np.diff(time)
+    check("growth", increments[1] / increments[0], 1.5, 1e-9)
+    check("longest increment", increments.max(), 0.2 / rate, 1e-9)
+    decay, damped = 0.5 * alpha, math.sqrt(OMEGA**2 - 0.25 * alpha**2)
+    # The answer to a ramp: rate / k (t - c / k) and what fades of it.
+    lag = alpha / OMEGA**2
+    fading = np.exp(-decay * time) * (lag * np.cos(damped * time) + (decay * lag - 1.0) / damped * np.sin(damped * time))
+    check("response", np.abs(u[:, 0] - rate / 1000.0 * (time - lag + fading)).max(), 0.0, 1e-10)
+
+
 def stopped_and_resumed(balocco, folder):
     """The rubber bar in flight by implicit dynamics, stopped after its first step: it goes on to the same bits, and on other numbers of
     ranks to the same motion but for the order of elimination."""
@@ -222,7 +241,7 @@ def spinning_body(balocco, folder):
 
 
 CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body, modal_response,
-                                            stopped_and_resumed)}
+                                            growing_increments, stopped_and_resumed)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](*sys.argv[2:])

@@ -1,2 +1,2 @@
 # The tables of JOB.dat.
-verification_cases(print 120 tables section restart)
+verification_cases(print 120 tables section requests restart)

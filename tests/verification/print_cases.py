@@ -85,6 +85,33 @@ def section(runner):
                     close(a, b, 1e-6, "%s on %d ranks" % (kind, ranks))
 
 
+def requests(runner):
+    """Tables at time points, on which increments end; ids that no node has; TOTALS where a variable has none; places of points."""
+    deck = pulled("C3D20R")
+    deck.add_node(90, 0.0, 0.0, 3.0)
+    deck.add("*NSET, NSET=GAPS, GENERATE\n80, 99\n*TIME POINTS, NAME=T\n0.3, 0.5\n*STEP\n*STATIC\n0.4, 1.\n"
+             "*BOUNDARY\n1, 1, 2\n3, 2\nBASE, 3\nTOP, 3, 3, 0.01\n*NODE PRINT, NSET=GAPS, TIME POINTS=T\nU\n"
+             "*EL PRINT, ELSET=FIRST, TOTALS=ONLY, TIME POINTS=T\nENER, EVOL, COORD\n*END STEP")
+    for ranks in (1, 2):
+        runner.run("requests", deck, ranks)
+        found = blocks(os.path.join(runner.folder, "requests_%d" % ranks, "requests.dat"))
+        times = [float(title.split()[-1]) for title, _ in found if "displacements" in title]
+        for time, expected in zip(times, (0.3, 0.5, 1.0), strict=True):
+            close(time, expected, 1e-6, "time of a table")
+        last = {title.split(" for set")[0]: rows for title, rows in found if "0.1000000E+01" in title}
+        rows = last["displacements (vx,vy,vz)"]
+        assert [int(row[0]) for row in rows] == list(range(80, 91)), "the ids that GENERATE made, up to the last node"
+        assert all(row[1:] == [0.0, 0.0, 0.0] for row in rows[2:]), "no node, no displacement"
+        assert len(last["internal energy density (elem, integ.pnt.,energy)"]) == 16, "points of two elements: they have no totals"
+        assert "volume (element, volume)" not in last and len(last["total volume"]) == 1, "totals only"
+        near, far = 0.25 * (1.0 - 1.0 / 3.0**0.5), 0.25 * (1.0 + 1.0 / 3.0**0.5)
+        places = last["global coordinates (elem, integ.pnt.,x,y,z)"]
+        for place, x in ((places[0], (0.5 + near, near, near)), (places[7], (0.5 + far, far, far))):
+            assert place[0] == 2
+            for a, b in zip(place[2:], x, strict=True):
+                close(a, b, 1e-6, "coordinate of a point of element 2")
+
+
 def restart(runner):
     """A run that is killed and goes on from its checkpoint leaves the same file as one that is not, to the round-off of statics."""
     deck = pulled("C3D8")
@@ -110,7 +137,7 @@ def restart(runner):
 
 def main():
     case, program, folder = sys.argv[1:4]
-    {"tables": tables, "section": section, "restart": restart}[case](Runner(program, folder))
+    {"tables": tables, "section": section, "requests": requests, "restart": restart}[case](Runner(program, folder))
 
 
 if __name__ == "__main__":
