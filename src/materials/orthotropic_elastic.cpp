@@ -15,7 +15,7 @@ OrthotropicElastic OrthotropicElastic::from_stiffness(const std::array<double, 9
   if (!(symmetric_eigenvalues(normal, 3).front() > 0.0))
     throw InputError(std::string(keyword) +
                      ": the stiffness is not positive definite; check the Poisson's ratios or D1122, D1133, D2233");
-  OrthotropicElastic law{normal, shear[0], shear[1], shear[2], 0.0, 0.0};
+  OrthotropicElastic law{{}, normal, shear[0], shear[1], shear[2], 0.0, 0.0};
   law.lambda =
       std::max(0.0, (normal[1] + normal[2] + normal[5]) / 3.0);  // any choice is safe; this one is exact if isotropic
   auto rest = normal;

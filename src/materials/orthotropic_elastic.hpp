@@ -3,12 +3,11 @@
 
 #include <array>
 
-#include "materials/isotropic_elastic.hpp"
+#include "materials/directional_elastic.hpp"
 
 namespace balocco {
 
-struct OrthotropicElastic {
-  static constexpr bool compiled_whole = true;  // law_of.hpp
+struct OrthotropicElastic : DirectionalElastic<OrthotropicElastic> {
   std::array<double, 9> normal;  // D1111 D1122 D1133, D1122 D2222 D2233, D1133 D2233 D3333
   double shear12, shear13, shear23;
   double lambda, mu;  // D <= lambda I x I + 2 mu Id
@@ -26,28 +25,6 @@ struct OrthotropicElastic {
     s(0, 2) = s(2, 0) = (2.0 * shear13) * strain(0, 2);
     s(1, 2) = s(2, 1) = (2.0 * shear23) * strain(1, 2);
     return s;
-  }
-
-  template <class T>
-  Matrix3<T> stress(const Matrix3<T>& deformation_gradient) const {
-    return deformation_gradient * second_piola(green_lagrange_strain(deformation_gradient));
-  }
-
-  template <class T>
-  TangentBound<T> bound(const Matrix3<T>& deformation_gradient) const {
-    const Matrix3<T> s = second_piola(green_lagrange_strain(deformation_gradient));
-    T largest = T(0.0);  // Gershgorin
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, k = (i + 2) % 3;
-      largest = maximum(largest, s(i, i) + absolute(s(i, j)) + absolute(s(i, k)));
-    }
-    return quadratic_energy_bound(invariants(deformation_gradient), lambda, mu, largest);
-  }
-
-  template <class T>
-  T energy(const Matrix3<T>& deformation_gradient) const {
-    const Matrix3<T> strain = green_lagrange_strain(deformation_gradient);
-    return 0.5 * double_contraction(second_piola(strain), strain);
   }
 };
 
