@@ -27,6 +27,19 @@ Point cross_product(const Point& a, const Point& b) {
 
 constexpr std::int8_t held_in_place = 1, held_from_turning = 2;
 
+/// In implicit dynamics inertia holds what nothing else does.
+void mark_inert_nodes(const Analysis& analysis, std::vector<std::int8_t>& held) {
+  const auto mark = [&](std::int32_t node, std::int8_t kind) {
+    auto& of_node = held[analysis.domain.node_row[node]];
+    of_node = std::max(of_node, kind);
+  };
+  for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
+    if (analysis.inertia.mass[node] > 0.0) mark(node, held_in_place);
+  for (std::int32_t node = 0; node < analysis.domain.turning; ++node)
+    if (analysis.inertia.rotary[node] > 0.0) mark(node, held_from_turning);
+  for (const auto& tensor : analysis.rotary_tensors) mark(tensor.node, held_from_turning);
+}
+
 /// Model nodes that some element with stiffness or a constraint holds, on any rank: in place, or from turning too.
 std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
   std::vector<std::int8_t> held(analysis.model.nodes.size(), 0);
@@ -43,6 +56,7 @@ std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
       auto& mark = held[constraint->nodes()[i]];
       mark = std::max(mark, constraint->turns(static_cast<int>(i)) ? held_from_turning : held_in_place);
     }
+  if (std::holds_alternative<DynamicProcedure>(analysis.model.steps[analysis.current.step].procedure)) mark_inert_nodes(analysis, held);
   MPI_Allreduce(MPI_IN_PLACE, held.data(), static_cast<int>(held.size()), MPI_INT8_T, MPI_MAX,
                 analysis.communicator.handle());
   return held;

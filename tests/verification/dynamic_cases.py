@@ -240,8 +240,42 @@ def spinning_body(balocco, folder):
     check("order of its error", math.log2(error[0] / error[1]), 2.0, 0.1)
 
 
+def lone_masses(balocco, folder):
+    """Nodes that inertia alone holds move under a force, F t^2 / (2 m), and turn under a moment, M t^2 / (2 I)."""
+    deck = """*NODE, NSET=N
+1, 0., 0., 0.
+2, 5., 0., 0.
+*ELEMENT, TYPE=MASS, ELSET=M
+1, 1
+2, 2
+*MASS, ELSET=M
+2.
+*ELEMENT, TYPE=ROTARYI, ELSET=I
+3, 2
+*ROTARY INERTIA, ELSET=I
+3., 3., 3.
+*STEP, NLGEOM
+*DYNAMIC
+0.1, 1.
+*CLOAD
+1, 1, 4.
+2, 4, 1.5
+*OUTPUT, HISTORY, FREQUENCY=1
+*NODE OUTPUT, NSET=N
+U, UR
+*END STEP
+"""
+    for ranks in "12":
+        job = Job("lone_on_" + ranks, balocco, ranks, folder)
+        job.run(deck)
+        time, u = job.history("node_1", "U")
+        check("way", np.abs(u[:, 0] - time**2).max(), 0.0, 1e-12)
+        time, turn = job.history("node_2", "UR")
+        check("turn", np.abs(turn[:, 0] - 0.25 * time**2).max(), 0.0, 1e-12)
+
+
 CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body, modal_response,
-                                            growing_increments, stopped_and_resumed)}
+                                            growing_increments, lone_masses, stopped_and_resumed)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](*sys.argv[2:])
