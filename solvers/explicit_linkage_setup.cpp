@@ -17,9 +17,12 @@ ExplicitLinkages::ExplicitLinkages(Analysis& analysis, const Step& step, const N
   moves_.assign(static_cast<std::size_t>(analysis.domain.size()), false);
   turns_.assign(static_cast<std::size_t>(analysis.domain.turning), false);
   if (analysis.current.increment == 0) analysis.current.implied_rows.clear();
-  for (const auto& linkage : find_linkages(analysis.model))
-    if (std::ranges::binary_search(analysis.local_constraints, linkage.constraints.front())) add_system(analysis, linkage);
+  for (const auto& linkage : find_linkages(analysis.model)) {
+    if (!std::ranges::binary_search(analysis.local_constraints, linkage.constraints.front())) continue;
+    if (!clusters_.take(analysis, linkage, {translations, rotations, gyroscopic})) add_system(analysis, linkage);
+  }
   for (const auto& system : systems_) take_over(system, inverse);
+  take_over_clusters(inverse);
 }
 
 void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
@@ -83,7 +86,7 @@ void ExplicitLinkages::take_inertia(Mover& mover) const {
       for (int j = 0; j < 3; ++j) mover.response(i, j) += mover.inverse_inertia * direction[i] * direction[j];
 }
 
-void ExplicitLinkages::renew_inertia(InverseInertia& inverse) {
+void ExplicitLinkages::renew_inertia(const Analysis& analysis, InverseInertia& inverse) {
   inverse_ = inverse;
   for (auto& system : systems_) {
     for (auto& mover : system.movers)
@@ -91,6 +94,8 @@ void ExplicitLinkages::renew_inertia(InverseInertia& inverse) {
     system.factorized_for = 0.0;
     take_over(system, inverse);
   }
+  clusters_.renew_inertia(analysis);
+  take_over_clusters(inverse);
 }
 
 ExplicitLinkages::NodeUse ExplicitLinkages::use_of(const Analysis& analysis, System& system, std::int32_t row, bool turns) {
@@ -253,6 +258,16 @@ void ExplicitLinkages::take_over(const System& system, InverseInertia& inverse) 
       turns_[mover.index] = true;
     }
   }
+}
+
+void ExplicitLinkages::take_over_clusters(InverseInertia& inverse) {
+  clusters_.for_each_node([&](std::int32_t node, bool turns) {
+    inverse.mass[node] = 0.0;
+    moves_[node] = true;
+    if (!turns) return;
+    inverse.rotary[node] = 0.0;
+    turns_[node] = true;
+  });
 }
 
 void ExplicitLinkages::report_singular(const Analysis& analysis, const System& system) const {

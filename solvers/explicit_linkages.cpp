@@ -229,6 +229,7 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
       if (mover.kind == Mover::Kind::body) bodies_.add_force(static_cast<std::size_t>(mover.index), mover.constraint_force);
     system.average = instant.average();
   }
+  clusters_.find_motion(analysis, instant, forces);
 }
 
 void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
@@ -274,6 +275,7 @@ void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
     }
     system.factorized_for = 0.0;
   }
+  clusters_.make_velocities_consistent(analysis);
   set_velocities(analysis);
 }
 
@@ -308,6 +310,7 @@ void ExplicitLinkages::add_resting_forces(const Analysis& analysis, const NodalF
     }
     system.factorized_for = 0.0;
   }
+  clusters_.add_resting_forces(analysis, forces);
 }
 
 void ExplicitLinkages::add_to_reactions(NodalConstraints& translations, NodalConstraints& rotations) const {
@@ -326,6 +329,7 @@ void ExplicitLinkages::set_velocities(Analysis& analysis) const {
       auto& velocity = mover.kind == Mover::Kind::translation ? analysis.current.velocity : analysis.current.angular_velocity;
       std::copy_n(mover.velocity.component.begin(), 3, &velocity[4 * static_cast<std::size_t>(mover.index)]);
     }
+  clusters_.set_velocities(analysis);
 }
 
 void ExplicitLinkages::add_gyroscopic_moments(double* moment) const {
@@ -343,6 +347,7 @@ void ExplicitLinkages::add_to_output(Analysis& analysis) const {
       for (int c = 0; c < 3; ++c)
         acceleration[4 * static_cast<std::size_t>(mover.index) + c] = (mover.velocity[c] - mover.old_velocity[c]) / system.average;
     }
+  clusters_.add_to_output(analysis);
 }
 
 double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, bool rotation) {
@@ -366,12 +371,12 @@ double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, b
       system.factorized_for = 0.0;
       return trace;
     }
-  return 0.0;
+  return clusters_.mobility(node, rotation);
 }
 
 ExplicitLinkages::Company ExplicitLinkages::company(std::int32_t node, bool rotation) const {
   const auto kind = rotation ? Mover::Kind::rotation : Mover::Kind::translation;
-  Company company;
+  Company company{.nodes = clusters_.company(node, rotation), .bodies = {}};
   for (const auto& system : systems_) {
     if (std::ranges::none_of(system.movers, [&](const Mover& mover) { return mover.kind == kind && mover.index == node; })) continue;
     for (const auto& mover : system.movers)

@@ -9,6 +9,7 @@
 #include "explicit_bodies.hpp"
 #include "explicit_gyroscopic.hpp"
 #include "explicit_motion.hpp"
+#include "explicit_rigid_clusters.hpp"
 #include "guide_laws.hpp"
 #include "math/definite_solver.hpp"
 #include "math/pivoting_solver.hpp"
@@ -29,7 +30,7 @@ class ExplicitLinkages {
   ExplicitLinkages(Analysis& analysis, const Step& step, const NodalConstraints& translations, const NodalConstraints& rotations,
                    GyroscopicNodes& gyroscopic, RigidDynamics& bodies, InverseInertia& inverse);
 
-  bool empty() const { return systems_.empty(); }
+  bool empty() const { return systems_.empty() && clusters_.empty(); }
   /// Whether a linkage moves (turns) a local node.
   bool moves(std::int32_t node) const { return moves_[node]; }
   bool turns(std::int32_t node) const { return node < static_cast<std::int32_t>(turns_.size()) && turns_[node]; }
@@ -43,7 +44,7 @@ class ExplicitLinkages {
   };
   Company company(std::int32_t node, bool rotation) const;
   /// Takes over masses that have changed; sets `inverse` to zero as the constructor does.
-  void renew_inertia(InverseInertia& inverse);
+  void renew_inertia(const Analysis& analysis, InverseInertia& inverse);
   /// Velocities at the start of a step: the nearest ones, by mass, that the constraints allow. As the next two: @throws AnalysisError, on the
   /// ranks of a linkage alone, where its motion is not determined.
   void make_velocities_consistent(Analysis& analysis);
@@ -148,6 +149,7 @@ class ExplicitLinkages {
   void number(System& system) const;
   void list_shared_movers(System& system) const;
   void take_over(const System& system, InverseInertia& inverse);
+  void take_over_clusters(InverseInertia& inverse);
 
   void find_places(const Analysis& analysis, System& system) const;
   void find_gradient(const Analysis& analysis, System& system) const;
@@ -182,6 +184,7 @@ class ExplicitLinkages {
   GyroscopicNodes& gyroscopic_;
   RigidDynamics& bodies_;
   GuideLaws guides_;
+  RigidClusters clusters_;  // simple linkages, solved in closed form
   std::vector<System> systems_;
   std::vector<bool> moves_, turns_;
   InverseInertia inverse_;

@@ -247,7 +247,7 @@ void ExplicitStep::scale_masses() {
     bodies_.renew_inertia(analysis_);
     gyroscopic_.renew_inertia(analysis_);
     find_inverse(analysis_, gyroscopic_, inverse_);
-    linkages_.renew_inertia(inverse_);
+    linkages_.renew_inertia(analysis_, inverse_);
     contact_.renew_inertia(analysis_, bodies_, inverse_.mass);
     restraint_bound_ = find_restraint_bound(analysis_, restraints_, bodies_, linkages_);
     tell_added_bounds();

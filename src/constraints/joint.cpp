@@ -170,6 +170,13 @@ std::array<double, 6> JointConstraint::component_forces(std::span<const double> 
   return force;
 }
 
+void JointConstraint::find_multipliers(const Vector3<double>& force, const Vector3<double>& moment, const Matrix3<double>& rotation,
+                                       std::span<double> multipliers) const {
+  const auto axes = axes_[0] * transpose(rotation);
+  for (int i = 0; i < 3; ++i) multipliers[i] = dot(row_of(axes, i), force);
+  for (int i = 0; i < 3 && rows_ > 3; ++i) multipliers[3 + i] = dot(row_of(axes, i), moment) / lever_;
+}
+
 void JointConstraint::gaps(std::span<const NodePlace> places, std::span<double> g) const {
   list_rows(Gaps<double>{*this, frames(places), g.data()});
 }

@@ -19,6 +19,10 @@ class JointConstraint : public Constraint {
 
   /// Forces and moments of the components that it holds, in the first frame, as of a spring that is pulled; zero elsewhere.
   std::array<double, 6> component_forces(std::span<const double> multipliers) const;
+  /// The multipliers of a joint without gaps that holds all offsets, and all rotations or none, where it exerts a force and a moment on its
+  /// first node as moved to the second. `rotation` turns the first node from the start. Sign as of component_forces().
+  void find_multipliers(const Vector3<double>& force, const Vector3<double>& moment, const Matrix3<double>& rotation,
+                        std::span<double> multipliers) const;
 
  private:
   template <class T>

@@ -5,4 +5,4 @@ verification_cases(connector 120 strut damped_strut struck_pendulum braked_rotor
 verification_cases(rigid_part 120 carousel thrown_plate carried_inertia plates_made_rigid)
 verification_cases(import 120 driving_from_an_equilibrium importing_parts importing_the_mesh bodies_keep_their_nodes)
 verification_cases(linkage 120 heavy_top blown_flaps joined_instances)
-verification_cases(weld 120 closed_section tied_sheets)
+verification_cases(weld 120 closed_section tied_sheets tumbling_star sheets_thrown)

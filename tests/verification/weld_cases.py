@@ -1,6 +1,9 @@
 #!/usr/bin/env python3
 """Welded sheets against closed forms and against sheets that share their nodes: weld_cases.py CASE BALOCCO FOLDER."""
-from explicit_cases import check, run_case
+import numpy as np
+
+from constraint_cases import explicit_step, history, integrate
+from explicit_cases import check, check_energy, run_case
 
 YOUNG, POISSON, THICKNESS = 210e3, 0.3, 1.0
 LENGTH, SLICES = 600.0, 30
@@ -121,5 +124,81 @@ def tied_sheets(run):
     check("they come nearer on finer meshes", float(fine < 0.5 * coarse), 1.0, 0.0)
 
 
+def tumbling_star(run):
+    """Point masses on rigid arms, spun about the middle one of their axes: they tumble as Euler's equations say."""
+    masses = np.array([1.0, 2.0, 1.5, 0.5, 1.0])
+    places = np.array([[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [-0.7, 0.5, 0.1], [0.0, -0.9, 0.3], [0.1, 0.2, -0.8]])
+    centre = masses @ places / masses.sum()
+    arms = places - centre
+    inertia = sum(m * (np.dot(a, a) * np.eye(3) - np.outer(a, a)) for m, a in zip(masses, arms))
+    _, axes = np.linalg.eigh(inertia)
+    spin = 5.0 * (axes[:, 1] + 0.02 * axes[:, 0])
+
+    def motion(x):  # columns of the rotation, and the spin in the frame of the star
+        turn, w = x[:9].reshape(3, 3), x[9:]
+        cross = np.array([[0.0, -w[2], w[1]], [w[2], 0.0, -w[0]], [-w[1], w[0], 0.0]])
+        return np.concatenate([(turn @ cross).ravel(), np.linalg.solve(inertia, -np.cross(w, inertia @ w))])
+
+    point = lambda p: ", ".join(repr(float(c)) for c in p)
+    deck = "\n".join(["*NODE, NSET=STAR", *[f"{i}, {point(p)}" for i, p in enumerate(places, 1)],
+                      *[f"*ELEMENT, TYPE=MASS, ELSET=M{i}\n{i}, {i}\n*MASS, ELSET=M{i}\n{m}" for i, m in enumerate(masses, 1)],
+                      "*MPC\nBEAM, 2, 1\nBEAM, 3, 1\nBEAM, 4, 1\nBEAM, 5, 1",
+                      "*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY", f"STAR, {float(np.linalg.norm(spin))!r}",
+                      f"{point(centre)}, {point(centre + spin)}",
+                      explicit_step(2e-4, 10.0, "", history("STAR", "U", 0.05))])
+    job = run(deck, 1)
+    time = job.history("node_1", "U")[0]
+    turns = integrate(motion, np.concatenate([np.eye(3).ravel(), spin]), time)[:, :9].reshape(-1, 3, 3)
+    check("it turns over", float(min(turn[:, 1] @ turns[0][:, 1] for turn in turns) < -0.5), 1.0, 0.0)
+    ways = np.array([job.history(f"node_{i}", "U")[1] for i in range(1, 6)])
+    expected = np.einsum("tij,nj->nti", turns, arms) - arms[:, None]
+    check("ways", np.abs(ways - expected).max(), 0.0, 1e-4)
+    now = ways + places[:, None]
+    lengths = np.linalg.norm(now[1:] - now[0], axis=2)
+    check("lengths of arms", np.abs(lengths - lengths[:, :1]).max(), 0.0, 1e-12)
+    check("their centre rests", np.abs(np.einsum("n,nti->ti", masses, ways)).max(), 0.0, 1e-10)
+    check_energy(job, 1e-11)
+    again = run(deck, 2)
+    check("the same bits on two ranks", float(np.array_equal(again.history("node_4", "U")[1], ways[3])), 1.0, 0.0)
+
+
+def sheets_thrown(run):
+    """Two sheets on rigid arms, one of which is struck: arms between free nodes, which move in closed form, do and bear what
+    the same arms do that are said twice, which are systems of equations."""
+    nodes, shells = [], {0: [], 1: []}
+    for sheet in (0, 1):
+        at = lambda i, j: 100 * sheet + 4 * i + j + 1
+        nodes += [f"{at(i, j)}, {10.0 * i}, {10.0 * j}, {4.0 * sheet}" for i in range(4) for j in range(4)]
+        shells[sheet] = [f"{at(i, j)}, {at(i, j)}, {at(i + 1, j)}, {at(i + 1, j + 1)}, {at(i, j + 1)}" for i in range(3) for j in range(3)]
+    arms = [(1, 101), (104, 4), (13, 113), (16, 116), (116, 200)]  # the last one has a mass at its end
+
+    def deck(times):
+        ends = [f"{1000 * (k + 1) + i}, {first}, {second}" for k in range(times) for i, (first, second) in enumerate(arms)]
+        return "\n".join(["*NODE, NSET=ALL", *nodes, "200, 45., 30., 12.", "*NSET, NSET=OUT\n1, 116, 200",
+                          *[f"*ELEMENT, TYPE=S4R, ELSET=SHEET{i}\n" + "\n".join(these) for i, these in shells.items()],
+                          "*ELSET, ELSET=SHEETS\nSHEET0, SHEET1", "*ELEMENT, TYPE=MASS, ELSET=MASS\n900, 200\n*MASS, ELSET=MASS\n2.",
+                          "*ELEMENT, TYPE=CONN3D2, ELSET=ARMS", *ends, "*CONNECTOR SECTION, ELSET=ARMS\nBEAM",
+                          "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e3, 0.3\n*DENSITY\n7.85e-3",
+                          "*SHELL SECTION, ELSET=SHEETS, MATERIAL=STEEL\n0.8",
+                          "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 1, 0.3\n1, 3, 2.\n16, 3, 1.\n113, 2, -1.5\n200, 3, -1.",
+                          "*ELSET, ELSET=FIRST", ", ".join(str(1000 + i) for i in range(len(arms))),
+                          explicit_step(5e-4, 2.0, "", history("OUT", "U, UR, A", 0.1) + "*ELEMENT OUTPUT, ELSET=FIRST\nCTF\n")])
+
+    closed, system = run(deck(1), 1), run(deck(2), 1)
+    check("arms said twice are told", float("follow from other constraints" in system.log()), 1.0, 0.0)
+    for variable, tolerance in (("U", 1e-8), ("UR", 1e-8), ("A", 1e-5)):
+        for node in (1, 116, 200):
+            one, other = (job.history(f"node_{node}", variable)[1] for job in (closed, system))
+            check(f"{variable} of {node}", np.abs(one - other).max() / np.abs(other).max(), 0.0, tolerance)
+    largest = np.abs(system.history("element_1004", "CTF")[1]).max()
+    for arm in range(1000, 1000 + len(arms)):
+        one, other = (job.history(f"element_{arm}", "CTF")[1] for job in (closed, system))
+        check(f"what arm {arm} bears", np.abs(one - other).max() / largest, 0.0, 1e-5)
+    check_energy(closed, 1e-3)
+    again = run(deck(1), 2)
+    same = all(np.array_equal(again.history(f"node_{node}", "U")[1], closed.history(f"node_{node}", "U")[1]) for node in (1, 116, 200))
+    check("the same bits on two ranks", float(same), 1.0, 0.0)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (closed_section, tied_sheets)})
+    run_case({case.__name__: case for case in (closed_section, tied_sheets, tumbling_star, sheets_thrown)})
