@@ -38,18 +38,6 @@ void FrameVariables::add(const FieldOutput& output) {
   add_names(output.integration_point_variables, single, output.element_set, integration_points);
 }
 
-void mean_output(const ResultSource& source, std::size_t group, std::string_view variable, std::int32_t element,
-                 std::span<double> values) {
-  std::array<double, 16> at_point{};
-  std::fill(values.begin(), values.end(), 0.0);
-  const int points = source.groups()[group]->integration_points();
-  for (int point = 0; point < points; ++point) {
-    source.element(group, variable, element, point, std::span(at_point).first(values.size()));
-    for (std::size_t c = 0; c < values.size(); ++c) values[c] += at_point[c];
-  }
-  for (double& value : values) value /= points;
-}
-
 FrameWriter::FrameWriter(const Model& model, const Communicator& communicator, const Domain& domain, ElementGroups groups)
     : model_(&model),
       communicator_(&communicator),
@@ -140,7 +128,7 @@ std::vector<double> FrameWriter::element_values(const Field& field, const Result
     for (std::int32_t element = 0; element < group.size(); ++element, row += field.row_values()) {
       if (components == 0) continue;
       if (field.place == Field::Place::mean) {
-        mean_output(source, rows.group_index[g], field.variable, element, {row, components});
+        source.element_mean(rows.group_index[g], field.variable, element, {row, components});
         continue;
       }
       for (int point = 0; point < group.integration_points(); ++point)

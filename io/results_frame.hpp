@@ -73,8 +73,4 @@ class FrameWriter {
   std::vector<TableRows> tables_;
 };
 
-/// Mean over the integration points of one element; `values` has a component each.
-void mean_output(const ResultSource& source, std::size_t group, std::string_view variable, std::int32_t element,
-                 std::span<double> values);
-
 }  // namespace balocco

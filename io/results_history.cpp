@@ -239,7 +239,7 @@ void History::fill(const Channel& channel, Row& row, double* values) const {
     case Kind::element: {
       if (channel.place < 0) return;
       std::vector<double> all(channel.source_columns);
-      mean_output(row.source(), channel.group_index, channel.variable, channel.place, all);
+      row.source().element_mean(channel.group_index, channel.variable, channel.place, all);
       std::copy_n(all.begin() + channel.first, channel.columns, values);
       return;
     }

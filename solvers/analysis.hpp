@@ -100,6 +100,7 @@ class Analysis : public ResultSource {
   void nodal(std::string_view variable, std::span<double> values) const override;
   void element(std::size_t group, std::string_view variable, std::int32_t element, int integration_point,
                std::span<double> values) const override;
+  void element_mean(std::size_t group, std::string_view variable, std::int32_t element, std::span<double> values) const override;
   /// Internal force of an element where the state stands, freedoms_per_node() a node; of small strain after linear steps.
   void internal_force(std::size_t group, std::int32_t element, std::span<double> force) const;
   EnergyBalance energies() const override;

@@ -265,6 +265,14 @@ void Analysis::element(std::size_t index, std::string_view variable, std::int32_
     add_connector_forces({group.table(), group.row(element)}, variable, values);
 }
 
+void Analysis::element_mean(std::size_t index, std::string_view variable, std::int32_t element, std::span<double> values) const {
+  const auto& group = *element_groups[index];
+  if (current.linear || variable == "NFORC" || variable.starts_with('C')) return ResultSource::element_mean(index, variable, element, values);
+  std::vector<double> history(group.history_size());
+  group.gather_history(element, current.element_history[index], history);
+  group.mean_output(variable, element, current.motion(), history, values);
+}
+
 void Analysis::internal_force(std::size_t index, std::int32_t element, std::span<double> force) const {
   const auto& group = *element_groups[index];
   std::vector<double> history(group.history_size()), unused(group.history_size());

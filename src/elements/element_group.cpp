@@ -104,6 +104,11 @@ StableIncrement ElementGroup::smallest_recorded_increment() const {
   return smallest;
 }
 
+double ElementGroup::recorded_increment_with_added_bound(std::int32_t element) const {
+  const double own = recorded_increments_[element], scale = time_scale_.empty() ? 1.0 : time_scale_[element];
+  return added_bounds_.empty() ? own : allowing_for(added_bounds_[element], scale * own) / scale;
+}
+
 std::int32_t ElementGroup::acting_count() const {
   std::int32_t count = 0;
   for (std::int32_t element = 0; element < size_; ++element) count += acts(element) ? 1 : 0;
@@ -210,6 +215,21 @@ void ElementGroup::output(std::string_view variable, std::int32_t element, int i
   } else {
     point_output(variable, element, integration_point, motion, history, values);
   }
+}
+
+void ElementGroup::mean_output(std::string_view variable, std::int32_t element, const NodalMotion& motion, std::span<const double> history,
+                               std::span<double> values) const {
+  if (variable == "STATUS" || whole_element_energy(variable) != nullptr)
+    output(variable, element, 0, motion, history, values);
+  else
+    mean_point_output(variable, element, motion, history, values);
+}
+
+void ElementGroup::mean_point_output(std::string_view variable, std::int32_t element, const NodalMotion& motion,
+                                     std::span<const double> history, std::span<double> values) const {
+  mean_of_points(values, integration_points(), [&](int point, std::span<double> at_point) {
+    point_output(variable, element, point, motion, history, at_point);
+  });
 }
 
 }  // namespace balocco

@@ -10,6 +10,7 @@
 // Model::nodes.coordinates (total Lagrangian).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -74,6 +75,18 @@ struct PackRun {
   std::int32_t first = 0, last = 0;
 };
 
+/// The mean of what value_at(point, values) gives.
+template <class ValueAt>
+void mean_of_points(std::span<double> mean, int points, ValueAt value_at) {
+  std::array<double, 16> at_point{};
+  std::ranges::fill(mean, 0.0);
+  for (int point = 0; point < points; ++point) {
+    value_at(point, std::span(at_point).first(mean.size()));
+    for (std::size_t c = 0; c < mean.size(); ++c) mean[c] += at_point[c];
+  }
+  for (double& value : mean) value /= points;
+}
+
 class ElementGroup {
  public:
   explicit ElementGroup(const GroupInput& input);
@@ -118,6 +131,8 @@ class ElementGroup {
   /// While it records, add_forces() keeps the stable increment that each acting element has with its own mass.
   void record_increments(bool record);
   double recorded_increment(std::int32_t element) const { return recorded_increments_[element]; }
+  /// That where what set_added_bounds() says falls, as the element's own bound does, with its mass scale.
+  double recorded_increment_with_added_bound(std::int32_t element) const;
   /// The smallest recorded one, with the masses as they are scaled now.
   StableIncrement smallest_recorded_increment() const;
 
@@ -176,6 +191,9 @@ class ElementGroup {
   /// Values of a variable at one integration point, tensors in order 11 22 33 12 13 23; whole-element variables are the same at each.
   void output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
               std::span<const double> history, std::span<double> values) const;
+  /// The mean of that over the integration points.
+  void mean_output(std::string_view variable, std::int32_t element, const NodalMotion& motion, std::span<const double> history,
+                   std::span<double> values) const;
   virtual int integration_points() const = 0;
 
   /// Size of the force kernel's reference data, for the memory estimate.
@@ -210,6 +228,9 @@ class ElementGroup {
   virtual int point_components(std::string_view variable) const = 0;
   virtual void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                             std::span<const double> history, std::span<double> values) const = 0;
+  /// Groups whose points share work override it.
+  virtual void mean_point_output(std::string_view variable, std::int32_t element, const NodalMotion& motion,
+                                 std::span<const double> history, std::span<double> values) const;
 
   std::int32_t table_, section_, size_, padded_size_, interface_padded_;
   int nodes_per_element_, freedoms_per_node_;

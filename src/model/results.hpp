@@ -61,6 +61,11 @@ class ResultSource {
   /// Values of an output variable of an element of groups()[group], as ElementGroup::output; of small strain after linear steps.
   virtual void element(std::size_t group, std::string_view variable, std::int32_t element, int integration_point,
                        std::span<double> values) const = 0;
+  /// Their mean over the integration points.
+  virtual void element_mean(std::size_t group, std::string_view variable, std::int32_t element, std::span<double> values) const {
+    mean_of_points(values, groups()[group]->integration_points(),
+                   [&](int point, std::span<double> at_point) { this->element(group, variable, element, point, at_point); });
+  }
   virtual EnergyBalance energies() const = 0;                               // collective
   virtual ContactResultant contact(std::int32_t pair) const = 0;            // collective
 };

@@ -37,6 +37,8 @@ class ShellGroup final : public ElementGroup {
   int point_components(std::string_view variable) const override;
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override;
+  void mean_point_output(std::string_view variable, std::int32_t element, const NodalMotion& motion, std::span<const double> history,
+                         std::span<double> values) const override;
   int integration_points() const override { return points * layers(); }
   int law_field_row(std::string_view field, int integration_point) const override;
   std::size_t bytes_per_element() const override;
@@ -85,6 +87,8 @@ class ShellGroup final : public ElementGroup {
   ShellKernel<double, corners> kernel_at(std::int32_t element, const NodalMotion& motion) const;
   void stiffness_at_rest(std::int32_t element, const ShellGeometry& geometry, std::span<double> stiffness) const;
 
+  void output_at(std::string_view variable, std::int32_t element, int integration_point, const ShellModes<double, corners>& strain,
+                 std::span<const double> history, std::span<double> values) const;
   void layer_output(std::string_view variable, int point, int layer, const Place& at, std::span<const double> history,
                     std::span<double> values) const;
   void section_output(std::string_view variable, int point, const Place& at, const std::array<double, 2>& shear,

@@ -96,8 +96,26 @@ template <int corners, int points>
 void ShellGroup<corners, points>::point_output(std::string_view name, std::int32_t element, int integration_point,
                                                const NodalMotion& motion, std::span<const double> history,
                                                std::span<double> values) const {
-  const double* const data = record(element);
+  output_at(name, element, integration_point, kernel_at(element, motion).strains(), history, values);
+}
+
+/// What belongs to an outer layer, or to the section, is the same at all points above one another.
+template <int corners, int points>
+void ShellGroup<corners, points>::mean_point_output(std::string_view name, std::int32_t element, const NodalMotion& motion,
+                                                    std::span<const double> history, std::span<double> values) const {
   const auto strain = kernel_at(element, motion).strains();
+  const auto [variable, layer] = request(name, -1, layers());
+  const int stride = layer < 0 && layer_components(section_, variable) > 0 ? 1 : layers();
+  mean_of_points(values, points * layers() / stride, [&](int point, std::span<double> at_point) {
+    output_at(name, element, stride * point, strain, history, at_point);
+  });
+}
+
+template <int corners, int points>
+void ShellGroup<corners, points>::output_at(std::string_view name, std::int32_t element, int integration_point,
+                                            const ShellModes<double, corners>& strain, std::span<const double> history,
+                                            std::span<double> values) const {
+  const double* const data = record(element);
   const int point = integration_point / layers();
   const auto here = strain_at<double>(data, point, strain);
   const double h = data[(Record::point + point * Record::point_size + 1) * pack_size];
@@ -111,13 +129,15 @@ void ShellGroup<corners, points>::layer_output(std::string_view variable, int po
                                                std::span<const double> history, std::span<double> values) const {
   const ShellLayer& layer = section_.layers[index];
   const ShellPly& ply = section_.plies[layer.ply];
-  const auto strain = layer_strain<double>(ply, layer.height * at.thickness, at.strain.membrane, at.strain.curvature);
   const auto own = history.subspan(point * section_.history_size + layer.history, ply.law->history_size());
-  const double stretch = ply.law->transverse_stretch(strain, own);
   std::ranges::fill(values, 0.0);  // another ply's law may know the variable
   if (const int row = history_scalar(*ply.law, variable); row >= 0) {
     values[0] = own[row];
-  } else if (variable == "LE") {
+    return;
+  }
+  const auto strain = layer_strain<double>(ply, layer.height * at.thickness, at.strain.membrane, at.strain.curvature);
+  const double stretch = ply.law->transverse_stretch(strain, own);
+  if (variable == "LE") {
     std::ranges::copy(plane_logarithmic_strain(strain, stretch), values.begin());
   } else if (variable == "SENER") {
     values[0] = ply.law->energy_density(strain, own).recoverable;
