@@ -63,6 +63,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   // A linear step keeps the arms of bodies as they were.
   if (dynamics_ && analysis_.current.linear) stiffness_.set_weight(0.0);
   gather_at_bodies(residual_);
+  if (!dynamics_) add_half_residual_turns();
   turn_into_slot_directions(residual_);
   if (dynamics_) add_dynamics(request);
   stiffness_.finish();
@@ -329,6 +330,15 @@ void ImplicitSystem::gather_at_bodies(std::vector<double>& forces, bool with_sti
     }
     if (with_stiffness) stiffness_.add(std::array{map_.spin(static_cast<std::int32_t>(body))}, turning[body]);
   }
+}
+
+/// What makes the tangent of turning nodes and bodies symmetric (implicit_dof_map.hpp); it vanishes with the residual.
+void ImplicitSystem::add_half_residual_turns() {
+  for_each_spin([&](const NodeMotion& spin, std::int32_t first_slot) {
+    const double *m = &residual_[first_slot], weight = analysis_.current.linear ? 0.0 : 0.5;
+    stiffness_.add(std::array{spin}, std::array{0.0, -weight * m[2], weight * m[1], weight * m[2], 0.0, -weight * m[0],
+                                                -weight * m[1], weight * m[0], 0.0});
+  });
 }
 
 void ImplicitSystem::turn_into_slot_directions(std::vector<double>& forces) const {

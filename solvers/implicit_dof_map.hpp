@@ -7,7 +7,8 @@
 //
 // Rotations are finite: an increment of the three rotation slots is a spin s in global axes, R <- exp(s) R. Residual moments are
 // conjugate to such spins, and the tangent is the derivative of the residual by them at the present configuration; as spins do
-// not commute it is unsymmetric away from equilibrium, by half the cross product of the residual moment.
+// not commute it is unsymmetric away from equilibrium, by half the cross product of the residual moment. Statics leave that out of it:
+// what stays is the second derivative of the energy, and Newton's method converges as fast.
 #pragma once
 
 #include <petscsys.h>

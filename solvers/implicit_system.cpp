@@ -132,6 +132,7 @@ void ImplicitSystem::record_pattern() {
   };
   if (dynamics_) dynamics_->record_damping(stiffness_);
   record_bodies();
+  if (!dynamics_) for_each_spin([&](const NodeMotion& spin, std::int32_t) { stiffness_.add(std::array{spin}, {}); });
   if (dynamics_) {
     dynamics_->record_inertia(stiffness_);
     record_bodies();

@@ -133,6 +133,15 @@ class ImplicitSystem {
   void add_stabilization(const AssemblyRequest& request);
   void add_dynamics(const AssemblyRequest& request);
   void gather_at_bodies(std::vector<double>& forces, bool with_stiffness = true);
+  /// visit(spin, its first slot) of the nodes and bodies of this rank that turn by themselves.
+  template <class Visit>
+  void for_each_spin(Visit visit) const {
+    for (std::int32_t node = 0; node < analysis_.domain.turning; ++node)
+      if (analysis_.domain.owned[node] && analysis_.turning_body(node) < 0) visit(map_.nodal_spin(node), map_.slot(node, 3));
+    for (std::int32_t body = 0; body < static_cast<std::int32_t>(analysis_.model.rigid_bodies.size()); ++body)
+      if (map_.owned(map_.rotation_slot(body, 0))) visit(map_.spin(body), map_.rotation_slot(body, 0));
+  }
+  void add_half_residual_turns();
   void turn_into_slot_directions(std::vector<double>& forces) const;
   bool everywhere_sound(bool sound);
   void find_levers();
