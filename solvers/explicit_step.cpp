@@ -108,6 +108,8 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     refuse_massless_restraints(analysis, step, linkages_);
   });
   tell_added_bounds();
+  constexpr int most_passes = 4;  // masses change what is added to them
+  for (int pass = 0; starts_afresh() && pass < most_passes && mass_scaling_.allow_for_added_bounds(analysis); ++pass) renew_inertia();
   find_loaded_nodes();
   bodies_.rest_nodes(uses_of_nodes());
   list_drifting_nodes();
@@ -240,17 +242,21 @@ void ExplicitStep::tell_added_bounds() {
   }
 }
 
+void ExplicitStep::renew_inertia() {
+  bodies_.renew_inertia(analysis_);
+  gyroscopic_.renew_inertia(analysis_);
+  find_inverse(analysis_, gyroscopic_, inverse_);
+  linkages_.renew_inertia(analysis_, inverse_);
+  contact_.renew_inertia(analysis_, bodies_, inverse_.mass);
+  restraint_bound_ = find_restraint_bound(analysis_, restraints_, bodies_, linkages_);
+  tell_added_bounds();
+}
+
 void ExplicitStep::scale_masses() {
   if (!scales_masses_) return;
   timers.measure(Phase::update, [&] {
     if (!mass_scaling_.adapt(analysis_)) return;
-    bodies_.renew_inertia(analysis_);
-    gyroscopic_.renew_inertia(analysis_);
-    find_inverse(analysis_, gyroscopic_, inverse_);
-    linkages_.renew_inertia(analysis_, inverse_);
-    contact_.renew_inertia(analysis_, bodies_, inverse_.mass);
-    restraint_bound_ = find_restraint_bound(analysis_, restraints_, bodies_, linkages_);
-    tell_added_bounds();
+    renew_inertia();
     stability_ = {};
     for (const auto& group : analysis_.element_groups)
       if (const auto stable = group->smallest_recorded_increment(); stable.element >= 0)

@@ -88,6 +88,8 @@ class ExplicitStep {
   void set_rounding_constants();
   /// Where connectors have left what their bounds hold for. Collective.
   void renew_restraints();
+  /// Takes over masses that have changed.
+  void renew_inertia();
   void look_at_mass_scaling(double previous_time);
   /// Tells elements what springs and contact add to them.
   void tell_added_bounds();

@@ -102,8 +102,15 @@ void MassScalingOfStep::start(Analysis& analysis) {
   const auto &fixed = procedure_.fixed_mass_scaling, &variable = procedure_.variable_mass_scaling;
   if (fixed.empty() && variable.empty()) return;
   if (std::ranges::any_of(fixed, has_target) || !variable.empty()) record_increments(analysis, procedure_);
+  for (const auto& group : analysis.element_groups) group->set_added_bounds({});  // of the step before
+  before_ = analysis.current.mass_scale;
+  scale_afresh(analysis);
+  apply(analysis, before_, !starts_at_rest(analysis));
+}
+
+void MassScalingOfStep::scale_afresh(Analysis& analysis) {
+  const auto &fixed = procedure_.fixed_mass_scaling, &variable = procedure_.variable_mass_scaling;
   auto& scale_of = analysis.current.mass_scale;
-  before_ = scale_of;
   for (std::size_t index = 0; index < scale_of.size(); ++index) {
     if (!has_mass(*analysis.element_groups[index])) continue;
     if (!fixed.empty()) scale_of[index].clear();
@@ -115,7 +122,16 @@ void MassScalingOfStep::start(Analysis& analysis) {
   }
   due_.assign(variable.size(), true);
   scale(analysis, variable, variable_);
-  apply(analysis, before_, !starts_at_rest(analysis));
+}
+
+bool MassScalingOfStep::allow_for_added_bounds(Analysis& analysis) {
+  const auto &fixed = procedure_.fixed_mass_scaling, &variable = procedure_.variable_mass_scaling;
+  if (!std::ranges::any_of(fixed, has_target) && variable.empty()) return false;
+  before_ = analysis.current.mass_scale;
+  scale_afresh(analysis);
+  if (!apply(analysis, before_, !starts_at_rest(analysis))) return false;
+  sum_added_mass(analysis);
+  return true;
 }
 
 void MassScalingOfStep::scale(Analysis& analysis, const Definitions& definitions, const Governing& governing) {
@@ -127,7 +143,7 @@ void MassScalingOfStep::scale(Analysis& analysis, const Definitions& definitions
         const auto d = governing[index][e];
         const auto element = static_cast<std::int32_t>(e);
         if (d < 0 || !due_[d] || !group.acts(element)) continue;
-        const double own = has_target(definitions[d]) ? group.recorded_increment(element) : 0.0;
+        const double own = has_target(definitions[d]) ? group.recorded_increment_with_added_bound(element) : 0.0;
         visit(static_cast<std::size_t>(d), analysis.current.mass_scale[index][e], own);
       }
     }

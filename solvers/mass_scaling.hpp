@@ -28,6 +28,10 @@ class MassScalingOfStep {
   /// Applies what is due to elements whose increments have been recorded. Collective. @return whether any masses changed.
   bool adapt(Analysis& analysis);
 
+  /// As a step starts, when groups know what springs and contact add to elements (ElementGroup::set_added_bounds): reaches the targets with
+  /// that too. Collective. @return whether any masses changed.
+  bool allow_for_added_bounds(Analysis& analysis);
+
   bool exists() const { return exists_; }
   /// Mass added to all elements, as a part of the model's mass.
   double added_part() const { return added_part_; }
@@ -42,6 +46,7 @@ class MassScalingOfStep {
   Governing governing(const Analysis& analysis, const Definitions& definitions) const;
   void scale(Analysis& analysis, const Definitions& definitions, const Governing& governing);
   void start(Analysis& analysis);
+  void scale_afresh(Analysis& analysis);
   bool apply(Analysis& analysis, const std::vector<std::vector<double>>& before, bool moving);
   void sum_added_mass(const Analysis& analysis);
 
