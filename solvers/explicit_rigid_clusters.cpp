@@ -71,7 +71,8 @@ bool RigidClusters::lists_ends(const Analysis& analysis, const Linkage& linkage,
     return static_cast<std::int32_t>(std::ranges::find(cluster.ends, node, &End::node) - cluster.ends.begin());
   };
   const auto is_known = [&](std::int32_t end) { return end < static_cast<std::int32_t>(cluster.ends.size()); };
-  cluster.ends.push_back({.node = analysis.domain.local_node[analysis.constraints[linkage.constraints.front()]->nodes()[0]], .turns = true});
+  const auto first = analysis.constraints[linkage.constraints.front()]->nodes()[0];
+  cluster.ends.push_back({.node = analysis.domain.local_node[first], .turns = true});
   for (auto rest = linkage.constraints; !rest.empty();) {
     const auto next = std::ranges::find_if(rest, [&](std::int32_t index) {
       const auto& nodes = analysis.constraints[index]->nodes();
@@ -182,8 +183,9 @@ void RigidClusters::find_velocities(const Analysis& analysis, Cluster& cluster, 
   complete_momenta(cluster, momenta(cluster, average), rotation_matrix(orientation(analysis, cluster.ends.front().node)));
 }
 
-/// With the turn h w over the increment, s = sin / angle and c = (1 - cos) / angle^2 of it, and the inertias I of the masses and J of rotations,
-/// the angular momentum is s I w + c h w x I w + J w: found in the frame of the cluster, where I stays, by corrections with the inertia at rest.
+/// With the turn h w over the increment, s = sin / angle and c = (1 - cos) / angle^2 of it, and the inertias I of the masses and J of
+/// rotations, the angular momentum is s I w + c h w x I w + J w: solved in the frame of the cluster, where I stays, by corrections with
+/// the inertia at rest.
 bool RigidClusters::find_velocities(const Analysis& analysis, Cluster& cluster, double average, double next) {
   constexpr double resolution = 4.0 * std::numeric_limits<double>::epsilon();
   constexpr int most_iterations = 60;
@@ -273,10 +275,11 @@ void RigidClusters::find_motion(Analysis& analysis, const Instant& instant, cons
       find_velocities(analysis, cluster, cluster.average);
     else if (!find_velocities(analysis, cluster, cluster.average, instant.next)) {
       const auto& definition = analysis.model.constraints[cluster.arms.front().constraint];
-      throw AnalysisError(fmt::format("increment {}, time {:.6g}: the nodes joined by {} {} turn too far in an increment; reduce the increment, or "
-                                      "look for loads that throw them",
-                                      analysis.current.increment, analysis.current.total_time, definition.keyword,
-                                      analysis.model.where({definition.file, definition.line})));
+      throw AnalysisError(fmt::format(
+          "increment {}, time {:.6g}: the nodes joined by {} {} turn too far in an increment; reduce the increment, or look for loads "
+          "that throw them",
+          analysis.current.increment, analysis.current.total_time, definition.keyword,
+          analysis.model.where({definition.file, definition.line})));
     }
     store_multipliers(analysis, cluster);
   }

@@ -1,5 +1,5 @@
-// Free nodes on rigid arms in the explicit loop: spot welds, *MPC BEAM, couplings of nodes that nothing else moves. Such a cluster moves as one
-// body, so its motion is found in closed form, where a linkage has a system of equations. It is the motion that the constraints of
+// Free nodes on rigid arms in the explicit loop: spot welds, *MPC BEAM, couplings of nodes that nothing else moves. Such a cluster moves
+// as one body, so its motion is found in closed form, where a linkage has a system of equations. It is the motion that the constraints of
 // explicit_linkages.hpp would lead to: momenta grow by the impulses of all nodes, and the nodes end where the arms put them, to round-off.
 #pragma once
 
@@ -63,7 +63,8 @@ class RigidClusters {
     std::vector<End> ends;  // the first one turns, and its rotation is that of the cluster
     std::vector<Arm> arms;  // each behind the one that its inner end hangs on
     double mass = 0.0, rotary = 0.0;
-    Matrix3<double> inertia{}, mobility{};  // of the masses, about their centre, at the start; inverse of it and the rotary inertias
+    Matrix3<double> inertia{};   // of the masses, about their centre, at the start
+    Matrix3<double> mobility{};  // inverse of it and the rotary inertias
     double average = 0.0;                   // increment of the last motion
   };
   /// Momenta about the centre of mass.

@@ -28,8 +28,8 @@ class MassScalingOfStep {
   /// Applies what is due to elements whose increments have been recorded. Collective. @return whether any masses changed.
   bool adapt(Analysis& analysis);
 
-  /// As a step starts, when groups know what springs and contact add to elements (ElementGroup::set_added_bounds): reaches the targets with
-  /// that too. Collective. @return whether any masses changed.
+  /// As a step starts, when groups know what springs and contact add to elements (ElementGroup::set_added_bounds): reaches the targets
+  /// with that too. Collective. @return whether any masses changed.
   bool allow_for_added_bounds(Analysis& analysis);
 
   bool exists() const { return exists_; }
