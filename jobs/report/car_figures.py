@@ -69,19 +69,25 @@ def draw(axis, view, corners, colours, edges=0.1):
     axis.axis("off")
 
 
+def view_of_mode(kind):
+    if "lateral" in kind:
+        return car_picture.VIEWS["above"]
+    sideways = "rolls" in kind or "torsion" in kind or kind.startswith("hop")
+    return car_picture.VIEWS["from the front" if sideways else "side"]
+
+
 def modes(results, found, standing):
-    """Shapes of the ride: the car at rest as a shadow, the mode before it. found: [(Hz, words, group)]."""
+    """Shapes of modes: the car at rest as a shadow, the mode before it."""
     figure, axes = grid((len(found) + 2) // 3, 3, height=2.3)
     rest, _ = deformed(results, standing)
-    for axis, (frequency, kind, group) in zip(axes.flat, found):
-        shape = group["node/U"][:].astype(float)
+    for axis, mode in zip(axes.flat, found):
+        shape = mode.group["node/U"][:].astype(float)
         shape *= 120.0 / np.linalg.norm(shape, axis=1).max()
-        sideways = "rolls" in kind or kind.startswith("hop")
-        view = car_picture.VIEWS["from the front"] if sideways else car_picture.VIEWS["side"]
+        view = view_of_mode(mode.kind)
         draw(axis, view, rest, np.full((len(rest), 4), (0.8, 0.8, 0.8, 0.5)), 0.0)
         corners, normals = deformed(results, standing + shape)
         draw(axis, view, corners, np.outer(tyre_picture.shade(normals), (0.45, 0.58, 0.75)), 0.0)
-        axis.set_title(f"{frequency:.2f} Hz, {kind}", fontsize=8)
+        axis.set_title(f"{mode.frequency:.2f} Hz, {mode.kind}", fontsize=8)
     for axis in axes.flat[len(found):]:
         axis.axis("off")
     return figure
@@ -173,4 +179,21 @@ def energy(history):
     axes[0, 1].set(xlabel="ms", ylabel="J", title="ETOTAL less its start")
     for axis in axes.flat:
         axis.grid(alpha=0.25)
+    return figure
+
+
+def energies_of_parts(parts, time, springs):
+    """Energies of parts, and work on springs, less their start, J. parts: {kind: {name: rows of time and energy}}."""
+    figure, axes = grid(1, 3, height=3.2)
+    for axis, (kind, title) in zip(axes.flat, (("internal", "elastic"), ("kinetic", "kinetic"))):
+        for name, rows in parts[kind].items():
+            axis.plot(rows[:, 0], (rows[:, 1] - rows[0, 1]) / 1e3, label=name)
+        axis.set_title(title, fontsize=9)
+    for name, done in springs.items():
+        axes[0, 2].plot(time, done / 1e3, label=name)
+    axes[0, 2].set_title("done on springs and dampers", fontsize=9)
+    for axis in axes.flat:
+        axis.set(xlabel="ms", ylabel="J")
+        axis.grid(alpha=0.25)
+        axis.legend(fontsize=7)
     return figure

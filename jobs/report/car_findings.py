@@ -20,6 +20,7 @@ class Obstacle:
         self.height = float(height[np.argmax(np.abs(height - height[0]))] - height[0])
         self.hole = self.height < 0.0
         self.start, self.end = float(uneven.min()), float(uneven.max())
+        self.behind = self.end - self.start if self.hole else 0.5 * (self.end - self.start)  # distance at which it ends
         self.origin = float(surface.origin[0]) + (self.start if self.hole else 0.5 * (self.start + self.end))
         at = lambda wheel: results.coordinates[results.node_sets["HUB_" + wheel][0]][0]
         self.wheels = {axle: float(at(axle + "_LEFT")) for axle in ("FRONT", "REAR")}
@@ -72,6 +73,15 @@ def stress_over(drive, step, wanted, rigid):
     return f"largest Mises stress {stress:.0f} MPa, plastic strain {strain:.2g}"
 
 
+def rear_peaks(columns, away):
+    wheel = "wheel_centre_rear_left"
+    near = away[wheel] > -300.0
+    if away[wheel].max() < 0.0:
+        return "not reached in this drive"
+    up, along = (float(np.abs(columns[f"{wheel}_{component}"][near]).max()) for component in ("Fz", "Fx"))
+    return f"{up / 1e3:.1f} kN and {along / 1e3:.1f} kN"
+
+
 def compare(obstacle, columns, away, drive, step, fidelity):
     """Rows: what; the paper; Balocco."""
     wheel, mount = "wheel_centre_front_left", "strut_mount_front_left"
@@ -98,6 +108,7 @@ def compare(obstacle, columns, away, drive, step, fidelity):
     most = float(np.abs(along[near]).max())
     rows += [("peaks of vertical and longitudinal force", "about equal, 24 kN", f"{highest / 1e3:.1f} kN and {most / 1e3:.1f} kN"),
              ("peak over static load", "six", f"{highest / static:.1f}"),
+             ("the same of the left rear wheel", "", rear_peaks(columns, away)),
              ("vertical peak at the strut mount", "10.5 kN", f"{columns[mount + '_Fz'][near].max() / 1e3:.1f} kN"),
              ("strut mount", "yields", house), ("subframe", "", frame)]
     return rows

@@ -1,13 +1,17 @@
 """Loads of a car under the names that an engineer reads, as CSV: forces of wheel centres and strut mounts on the car along its
-axes, and how far they have moved since the start; forces and travels of springs and dampers along themselves; how far the roads have run.
+axes, and how far they have moved since the start; forces and travels of springs and dampers along themselves; forces in sections of
+rails that deform; how far the roads have run. The same lies in LOADS.h5, a group for each place.
 
 usage: car_loads.py CAR.inp CAR.h5 LOADS.csv      the deck says along which axes its connectors measure
 """
 
+import os
 import sys
 
 import h5py
 import numpy as np
+
+import car_sections
 
 # Name in the table; connector; the node that carries its axes along.
 FORCES = [(f"wheel_centre_{wheel.lower()}", f"BEARING_{wheel}", f"AXLE_{wheel}")
@@ -24,7 +28,8 @@ def axes_of_connectors(deck):
             blocks.append((line.strip(), []))
         elif not line.startswith("**") and blocks:
             blocks[-1][1].append(line.strip())
-    option = lambda keyword, name: next(word.split("=")[1].strip() for word in keyword.split(",") if word.strip().startswith(name + "="))
+    words = lambda keyword: (word.strip() for word in keyword.split(","))
+    option = lambda keyword, name: next(word.split("=")[1].strip() for word in words(keyword) if word.startswith(name + "="))
     for keyword, lines in blocks:
         if keyword.startswith("*ORIENTATION"):
             first, second = np.array([float(x) for x in lines[0].split(",")][:6]).reshape(2, 3)
@@ -67,13 +72,34 @@ def table(deck, results):
         columns.update({f"{name}_{c}": moved[:, i] - moved[0, i] for i, c in enumerate(("Ux", "Uy", "Uz"))})
     for name in ALONG:
         for column, variable in (("force", "CTF"), ("travel", "CU")):
-            columns[f"{name.lower()}_{column}"] = history_of(file, step, "element", name, variable).reshape(len(columns["time"]), -1)[:, 0]
-    return columns
+            values = history_of(file, step, "element", name, variable)
+            columns[f"{name.lower()}_{column}"] = values.reshape(len(columns["time"]), -1)[:, 0]
+    return columns | car_sections.columns(file, step)
+
+
+def unit(column):
+    quantity = column.rpartition("_")[2]
+    if quantity == "time":
+        return "ms"
+    if quantity in ("My", "Mz"):
+        return "N mm"
+    return "N" if quantity[0] in "FNV" or quantity == "force" else "mm"
+
+
+def write_groups(columns, path):
+    """PLACE/QUANTITY of each column, with its unit; the time at the root."""
+    with h5py.File(path, "w") as file:
+        for name, values in columns.items():
+            place, _, quantity = name.rpartition("_")
+            file[f"{place}/{quantity}"] = values
+            file[f"{place}/{quantity}"].attrs["unit"] = unit(name)
 
 
 def main():
     columns = table(sys.argv[1], sys.argv[2])
-    np.savetxt(sys.argv[3], np.column_stack(list(columns.values())), delimiter=",", header=",".join(columns), comments="", fmt="%.7g")
+    rows = np.column_stack(list(columns.values()))
+    np.savetxt(sys.argv[3], rows, delimiter=",", header=",".join(columns), comments="", fmt="%.7g")
+    write_groups(columns, os.path.splitext(sys.argv[3])[0] + ".h5")
     for name, values in columns.items():
         if name.endswith(("Fx", "Fz")):
             print(f"{name:<28} starts at {values[0]:9.1f} N, between {values.min():9.1f} and {values.max():9.1f} N")

@@ -10,11 +10,14 @@ import sys
 
 import numpy as np
 
+import car_comparison
+import car_energies
 import car_equilibrium
 import car_figures
 import car_findings
 import car_kinematics
 import car_loads
+import car_modes
 from balocco_results import Results
 from car_figures import WHEELS, words
 from html_page import Page
@@ -59,7 +62,7 @@ def describe_equilibrium(page, folder, results):
                [(words(wheel), loads[wheel], *moved("HUB_" + wheel)) for wheel in WHEELS])
     roads = abs(sum(float(car_equilibrium.last(file, f"ROAD_{side}", "RF")[2]) for side in ("LEFT", "RIGHT")))
     page.text(f"The wheels carry {sum(loads.values()):.3f} N together; the roads are held by {roads:.3f} N.")
-    page.table(("mount of the body", "moved up, mm"), [(words(name), moved(name)[2]) for name in car_equilibrium.MOUNTS])
+    page.table(("mount of the body", "moved up, mm"), [(words(name), moved(name)[2]) for name in car_modes.MOUNTS])
     step, rows = car_equilibrium.last_step(file), []
     for name in (f"{part}_{side}" for part in LENGTHS for side in ("LEFT", "RIGHT")):
         along = lambda variable: float(np.ravel(car_loads.history_of(file, step, "element", name, variable)[-1])[0])
@@ -69,14 +72,22 @@ def describe_equilibrium(page, folder, results):
 
 
 def describe_modes(page, results):
-    page.heading("Ride: modes about the equilibrium")
-    found = car_equilibrium.ride_modes(results.file)
+    page.heading("Modes about the equilibrium")
+    found = car_modes.modes(results.file)
     if not found:
         return page.missing("The job has no frequency step.")
-    page.table(("frequency, Hz", "what moves"), [(float(frequency), kind) for frequency, kind, _ in found])
-    page.text("Cars of the class: bounce at 1.1 to 1.5 Hz, wheels hop at 10 to 14 Hz.")
+    page.table(("frequency, Hz", "what moves"), [(mode.frequency, mode.kind) for mode in found])
+    page.text("Cars of the class: bounce at 1.1 to 1.5 Hz, wheels hop at 10 to 14 Hz, the body twists and bends at 20 to 60 Hz.")
+    own = [mode for mode in found if mode.shares]
+    if own:
+        percent = lambda mode: (f"{100.0 * mode.shares[family]:.0f} %" for family in car_modes.FAMILIES)
+        page.table(("frequency, Hz", "the body's own", *car_modes.FAMILIES),
+                   [(mode.frequency, mode.kind, *percent(mode)) for mode in own])
+        page.text("Shares of the squares of its nodes' motion: of rigid motions; of ends that roll against each other; of a middle "
+                  "that moves against the ends, up or sideways; of a roof that leans over the floor; of the rest.")
     standing = next(step for step in reversed(results.steps) if step.frames).frames[-1].node("U").astype(float)
-    page.figure(car_figures.modes(results, found, standing), "Their shapes, magnified, before the standing car.")
+    page.figure(car_figures.modes(results, [mode for mode in found if not mode.local], standing),
+                "Shapes of all but the local ones, magnified, before the standing car.")
 
 
 def describe_kinematics(page, path):
@@ -91,13 +102,36 @@ def describe_kinematics(page, path):
     page.table(("about design height", "front", "rear"), car_kinematics.summary(results))
 
 
-def describe_drive(page, folder, drive, columns, away):
+def describe_obstacle(page, drive, obstacle, columns, away):
+    page.heading("Obstacle")
+    page.text(obstacle.words())
+    out = np.flatnonzero(away["wheel_centre_rear_left"] > obstacle.behind)
+    page.text(f"The rear wheels have left it after {columns['time'][out[0]]:.0f} ms of {columns['time'][-1]:.0f}." if len(out) else
+              f"The drive of {columns['time'][-1]:.0f} ms ends before the rear wheels have left it.")
+    page.figure(car_figures.road(drive), "The roads' profiles.")
+
+
+def describe_loads(page, obstacle, columns, away):
     page.heading("Loads")
-    for group, quantities in (("wheel_centre", ("Fz", "Fx", "Fy")), ("strut_mount", ("Fz", "Fx", "Fy"))):
-        names = [name for name, _, _ in car_loads.FORCES if name.startswith(group)]
-        page.figure(car_figures.against_distance(columns, away, names, quantities, "N"),
-                    f"Forces of the {words(group)}s on the car against the distance from the obstacle.")
-    page.text("The same as a table: loads.csv beside this page.")
+    wheels = "the left wheel" if obstacle.hole else "the wheel"
+    shown = [name for name, _, _ in car_loads.FORCES if not obstacle.hole or name.endswith("left")]
+    for group in ("wheel_centre", "strut_mount"):
+        names = [name for name in shown if name.startswith(group)]
+        page.figure(car_figures.against_distance(columns, away, names, ("Fz", "Fx", "Fy"), "N"),
+                    f"Forces of the {words(group)}s on the car against the distance of {wheels} from the obstacle.")
+    rails = sorted({name.rpartition("_")[0] for name in columns if name.startswith("section_")})
+    if rails:
+        places = dict.fromkeys(rails, away["wheel_centre_front_left"])
+        page.figure(car_figures.against_distance(columns, places, rails, ("N", "Vz"), "N"),
+                    "Section forces across the middles of the rails: tension, and shear up, of the front part on the rear one, "
+                    "against the distance of the front wheels.")
+        page.figure(car_figures.against_distance(columns, places, rails, ("My", "Mz"), "N mm"), "Moments in the same sections.")
+    else:
+        page.missing("Section forces of the rails: they are rigid in this job; BALOCCO_FIDELITY=complete makes them deform.")
+    page.text("The same as tables: loads.csv and loads.h5 beside this page.")
+
+
+def describe_motion(page, obstacle, drive, columns, away):
     page.heading("Motion")
     for group in ("wheel_centre", "strut_mount"):
         names = [name for name, _, _ in car_loads.FORCES if name.startswith(group)]
@@ -108,24 +142,73 @@ def describe_drive(page, folder, drive, columns, away):
     page.figure(car_figures.against_distance(columns, travelled, along, ("travel",), "mm"),
                 "Springs and dampers: longer than as drawn.")
     axles = (away["wheel_centre_front_left"], away["wheel_centre_rear_left"])
-    instants = sorted(float(np.interp(place, values, columns["time"])) for values in axles for place in (-250.0, 0.0, 300.0)
+    places = (-250.0, 300.0, obstacle.behind - 300.0, obstacle.behind) if obstacle.hole else (-250.0, 0.0, 300.0)
+    instants = sorted(float(np.interp(place, values, columns["time"])) for values in axles for place in places
                       if values[0] < place < values[-1])
-    step = drive.steps[-1]
     roads = [drive.node_sets["ROAD_LEFT"][0]]
-    page.figure(car_figures.motion(drive, step, instants or [0.0], roads), "Frames of the motion.")
-    return step
+    page.figure(car_figures.motion(drive, drive.steps[-1], instants or [0.0], roads), "Frames of the motion.")
 
 
-def describe_stress(page, drive, step, time, fidelity):
+def describe_both(page, folder):
+    page.heading("The semi-flexible and the complete car")
+    folders = car_comparison.both(folder)
+    if not folders:
+        return page.missing("Only one of them has been driven over this obstacle: BALOCCO_FIDELITY=semi-flexible, and =complete, "
+                            "bash jobs/run.sh car drive them.")
+    drives = {fidelity: car_comparison.Loads(path) for fidelity, path in folders.items()}
+    page.figure(car_comparison.figure(drives), "Forces on the car on its left side, below 150 Hz, as far as both have been driven, "
+                "against the distance from the obstacle.")
+    page.table(("force on the car, N", "semi-flexible: farthest from its start", "complete: likewise", "differs by",
+                "root mean square of the difference"), car_comparison.rows(drives))
+
+
+def instants_of_stress(obstacle, columns, away):
+    """Times at which stress is shown, by what happens then."""
+    wheel = "wheel_centre_front_left"
+    if not obstacle.hole:
+        return {"the front wheels above the obstacle's middle": float(np.interp(0.0, away[wheel], columns["time"]))}
+    return {"the left front wheel strikes the ramp out of the hole": float(columns["time"][np.argmax(columns[f"{wheel}_Fz"])]),
+            "at the end": float(columns["time"][-1])}
+
+
+def describe_stress(page, drive, instants, fidelity):
     page.heading("Stress of strut houses and subframe")
     if fidelity == "rigid":
         return page.missing("These parts are rigid in this job; BALOCCO_FIDELITY=semi-flexible or complete makes them deform.")
-    frame = min(step.frames, key=lambda frame: abs(frame.step_time - time))
-    groups = {title: wanted for title, wanted in PARTS.items() if car_figures.stress_of(drive, frame, wanted)}
-    if not groups:
-        return page.missing("The results hold no stress of these parts.")
-    page.figure(car_figures.contours(drive, frame, groups),
-                f"At {frame.step_time:.1f} ms, the front wheels about where distances count from; the worse face of each shell.")
+    for happens, time in instants.items():
+        frame = min(drive.steps[-1].frames, key=lambda frame: abs(frame.step_time - time))
+        groups = {title: wanted for title, wanted in PARTS.items() if car_figures.stress_of(drive, frame, wanted)}
+        if not groups:
+            return page.missing("The results hold no stress of these parts.")
+        page.figure(car_figures.contours(drive, frame, groups),
+                    f"At {frame.step_time:.1f} ms, {happens}; the worse face of each shell.")
+
+
+def describe_energy(page, folder, drive, columns):
+    page.heading("Energy")
+    page.figure(car_figures.energy(drive.steps[-1].history("energy")), "Energies over the drive, and the error of their balance.")
+    tables = os.path.join(folder, "drive.dat")
+    if not os.path.exists(tables):
+        return page.missing("Energies by part: there is no drive.dat.")
+    page.figure(car_figures.energies_of_parts({kind: car_energies.of_assemblies(tables, kind) for kind in ("internal", "kinetic")},
+                                              columns["time"], car_energies.of_springs(columns)),
+                "Less their first value: elastic and kinetic energies of what deforms; what has been done on springs and dampers.")
+
+
+def describe_drive(page, folder, fidelity):
+    deck, results = (os.path.join(folder, name) for name in ("drive.inp", "drive.h5"))
+    drive, columns = Results(results), car_loads.table(deck, results)
+    obstacle = car_findings.Obstacle(drive)
+    away = obstacle.distances(columns)
+    describe_obstacle(page, drive, obstacle, columns, away)
+    describe_loads(page, obstacle, columns, away)
+    if fidelity in car_comparison.FIDELITIES:
+        describe_both(page, folder)
+    describe_motion(page, obstacle, drive, columns, away)
+    describe_stress(page, drive, instants_of_stress(obstacle, columns, away), fidelity)
+    describe_energy(page, folder, drive, columns)
+    page.heading("What the paper says, what Balocco finds")
+    page.table(("", "the paper", "Balocco"), car_findings.compare(obstacle, columns, away, drive, drive.steps[-1], fidelity))
 
 
 def report(folder, path):
@@ -145,21 +228,7 @@ def report(folder, path):
         page.missing("The car has not been driven: there is no drive.h5. BALOCCO_OBSTACLE=comfort (or pothole) bash jobs/run.sh "
                      "car drives it.")
         return page.write(path)
-    drive = Results(inside("drive.h5"))
-    columns = car_loads.table(inside("drive.inp"), inside("drive.h5"))
-    obstacle = car_findings.Obstacle(drive)
-    page.heading("Obstacle")
-    page.text(obstacle.words())
-    page.figure(car_figures.road(drive), "The roads' profiles.")
-    away = obstacle.distances(columns)
-    step = describe_drive(page, folder, drive, columns, away)
-    crossing = float(np.interp(0.0, away["wheel_centre_front_left"], columns["time"]))
-    describe_stress(page, drive, step, crossing, fidelity)
-    page.heading("Energy")
-    energy = step.history("energy")
-    page.figure(car_figures.energy(energy), "Energies over the drive, and the error of their balance.")
-    page.heading("What the paper says, what Balocco finds")
-    page.table(("", "the paper", "Balocco"), car_findings.compare(obstacle, columns, away, drive, step, fidelity))
+    describe_drive(page, folder, fidelity)
     page.write(path)
 
 

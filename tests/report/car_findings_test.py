@@ -2,12 +2,19 @@
 
 import os
 import sys
+import tempfile
+import types
 import unittest
 
+import h5py
 import numpy as np
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "..", "jobs", "report"))
+import car_comparison  # noqa: E402
+import car_energies  # noqa: E402
 import car_findings  # noqa: E402
+import car_loads  # noqa: E402
+import car_sections  # noqa: E402
 
 
 class Findings(unittest.TestCase):
@@ -24,6 +31,78 @@ class Findings(unittest.TestCase):
         self.assertAlmostEqual(amplitude, 700.0, delta=1.0)
         self.assertAlmostEqual(frequency, 30.0, delta=0.5)
         self.assertIsNone(car_findings.ringing(time[:200], force[:200], distance[:200]))
+
+    def test_two_drives_are_compared_where_both_have_been(self):
+        name = car_comparison.COMPARED[0]
+        distance = np.linspace(-600.0, 1400.0, 2001)
+        bump = 1000.0 * np.exp(-(distance / 100.0)**2)
+        drive = lambda force, end: types.SimpleNamespace(distance={name: distance[:end]}, force={name: force[:end]})
+        drives = {"semi-flexible": drive(4000.0 + bump, 2001), "complete": drive(4000.0 + 0.5 * bump, 1201)}  # to 600
+        one, other, spread = car_comparison.difference(drives, name)
+        self.assertAlmostEqual(one, 5000.0, delta=1.0)
+        self.assertAlmostEqual(other, 4500.0, delta=1.0)
+        # Of half the bump over 1200 mm: 500 sqrt(100 sqrt(pi / 2) / 1200).
+        self.assertAlmostEqual(spread, 500.0 * np.sqrt(100.0 * np.sqrt(np.pi / 2.0) / 1200.0), delta=0.5)
+
+
+def box_section(width, height, strips):
+    """Corners of strips of sheet around a box along x, 20 mm long: (n, 4, 3)."""
+    y, z = 0.5 * width, 0.5 * height
+    outline = np.array([(y, -z), (y, z), (-y, z), (-y, -z), (y, -z)])
+    points = np.concatenate([np.linspace(a, b, strips, endpoint=False) for a, b in zip(outline[:-1], outline[1:])])
+    after = np.roll(points, -1, axis=0)
+    place = lambda x, at: np.column_stack([np.full(len(at), x), at])
+    return np.stack([place(0.0, points), place(20.0, points), place(20.0, after), place(0.0, after)], axis=1)
+
+
+class Parts(unittest.TestCase):
+    def test_section_forces_of_a_box_under_tension_and_bending(self):
+        corners = box_section(80.0, 60.0, 50)
+        y, z = corners.mean(axis=1)[:, 1:].T
+        sheet = np.zeros((1, len(corners), 5))
+        sheet[0, :, 0] = 3.0 + 0.1 * z + 0.2 * y
+        about_y, about_z = 2.0 * 80.0 * 30.0**2 + 2.0 * 60.0**3 / 12.0, 2.0 * 60.0 * 40.0**2 + 2.0 * 80.0**3 / 12.0
+        wanted = (3.0 * 280.0, 0.0, 0.0, 0.1 * about_y, -0.2 * about_z)
+        np.testing.assert_allclose(car_sections.resultants(corners, sheet)[0], wanted, rtol=1e-3, atol=1e-6)
+
+    def test_shear_of_the_walls_alone_goes_up(self):
+        corners = box_section(80.0, 60.0, 10)
+        y = corners.mean(axis=1)[:, 1]
+        sheet = np.zeros((1, len(corners), 5))
+        sheet[0, np.abs(y) > 39.0, 2] = 2.0 * np.sign(y[np.abs(y) > 39.0])  # direction 2 goes around
+        found = car_sections.resultants(corners, sheet)[0]
+        self.assertAlmostEqual(found[2], 2.0 * 2.0 * 60.0, places=9)
+        self.assertAlmostEqual(found[0], 0.0, places=9)
+
+    def test_energies_of_parts_are_read_and_tyres_of_an_axle_added(self):
+        row = "\n total {} energy for set {} and time  0.{}000000E+01\n\n        {:13.6E}\n"
+        with tempfile.NamedTemporaryFile("w", suffix=".dat") as tables:
+            for time in (1, 2):
+                for part, value in (("TYRE_FRONT_LEFT", 10.0), ("TYRE_FRONT_RIGHT", 20.0), ("REAR_AXLE", 5.0)):
+                    tables.write(row.format("internal", part, time, time * value) + row.format("kinetic", part, time, -value))
+            tables.flush()
+            found = car_energies.of_assemblies(tables.name, "internal")
+        self.assertEqual(set(found), {"tyres front", "rear axle"})
+        np.testing.assert_allclose(found["tyres front"], [(1.0, 30.0), (2.0, 60.0)])
+
+    def test_loads_lie_by_place_with_their_units(self):
+        columns = {"time": np.arange(3.0), "strut_mount_front_left_Fz": np.ones(3), "spring_rear_left_travel": np.zeros(3),
+                   "section_rear_rail_left_My": np.full(3, 2.0)}
+        with tempfile.TemporaryDirectory() as folder:
+            path = os.path.join(folder, "loads.h5")
+            car_loads.write_groups(columns, path)
+            with h5py.File(path) as file:
+                units = {name: file[name].attrs["unit"] for name in ("time", "strut_mount_front_left/Fz", "spring_rear_left/travel",
+                                                                     "section_rear_rail_left/My")}
+                self.assertEqual(list(units.values()), ["ms", "N", "mm", "N mm"])
+                np.testing.assert_array_equal(file["section_rear_rail_left/My"], [2.0, 2.0, 2.0])
+
+    def test_work_on_springs(self):
+        travel = np.linspace(0.0, 10.0, 101)
+        columns = {"time": travel} | {f"{name}_{side}_{what}": values for name in car_energies.SPRINGS for side in ("left", "right")
+                                      for what, values in (("force", 20.0 * travel), ("travel", travel))}
+        for done in car_energies.of_springs(columns).values():
+            self.assertAlmostEqual(done[-1], 2.0 * 0.5 * 20.0 * 10.0**2, places=9)
 
 
 if __name__ == "__main__":

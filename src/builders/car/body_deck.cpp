@@ -5,6 +5,7 @@
 #include <map>
 #include <set>
 
+#include "builders/car/rail_sections.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco::car {
@@ -44,8 +45,10 @@ void write_parts(const CarSpec& spec, const BodyMesh& mesh, bool body, DeckText&
       deck.line("*NODE, NSET=N_{}", part->name);
       for (int node = part->first_node; node < part->first_node + part->nodes; ++node) deck.node(node + 1, mesh.nodes()[node]);
       deck.line("*ELEMENT, TYPE=S4R, ELSET={}", part->name);
+      std::int64_t last = 0;
       for (const auto& q : part->quadrilaterals)
-        deck.line("{}, {}, {}, {}, {}", deck.next_element(), q[0] + 1, q[1] + 1, q[2] + 1, q[3] + 1);
+        deck.line("{}, {}, {}, {}, {}", last = deck.next_element(), q[0] + 1, q[1] + 1, q[2] + 1, q[3] + 1);
+      write_rail_section(mesh, *part, last + 1 - static_cast<std::int64_t>(part->quadrilaterals.size()), deck);
       const auto& gauge = gauge_of(spec, *part);
       deck.line("*SHELL SECTION, ELSET={}, MATERIAL={}\n{:g}, 5", part->name, upper(gauge.material), gauge.thickness);
     }

@@ -114,7 +114,7 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   car.car = car_without_tyres(spec, mesh, weights, strikes_rim(tyre));
   DeckText equilibrium, drive, kinematics;
   write_equilibrium(spec, tyre, facts, equilibrium);
-  write_drive(spec, tyre, facts, wheel_loads(spec, weights, facts.mass), drive);
+  write_drive(spec, mesh, tyre, facts, wheel_loads(spec, weights, facts.mass), drive);
   write_kinematics(spec, kinematic_travel, kinematics);
   car.equilibrium = equilibrium.text();
   car.kinematics = "*HEADING\n" + car.tyres.heading + "\n" + car_without_tyres(spec, mesh, weights, false) + kinematics.text();

@@ -1,7 +1,9 @@
 #include "builders/car/car_steps.hpp"
 
 #include <map>
+#include <set>
 
+#include "builders/car/rail_sections.hpp"
 #include "builders/rim_profile.hpp"
 #include "builders/tyre_steps.hpp"
 
@@ -43,6 +45,23 @@ void write_history(DeckText& deck) {
     for (const auto* connector : {"TOP_MOUNT_", "STRUT_FRONT_", "SPRING_REAR_", "DAMPER_REAR_"})
       deck.line("*ELEMENT OUTPUT, ELSET={}{}\nCTF, CU", connector, side);
   }
+}
+
+/// Assemblies some of whose sheets deform.
+std::set<std::string> deformable_assemblies(const CarSpec& spec, const BodyMesh& mesh) {
+  std::set<std::string> names;
+  for (const auto& part : mesh.parts())
+    if (!is_rigid(spec, part)) names.insert(part.assembly);
+  return names;
+}
+
+/// What the drive tells besides: section forces of rails that deform, and energies of what deforms as tables in JOB.dat.
+void write_parts_history(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
+  if (spec.fidelity == "complete")
+    for (const auto& section : rail_section_names()) deck.line("*ELEMENT OUTPUT, ELSET={}\nSF", section);
+  auto parts = deformable_assemblies(spec, mesh);
+  for (const std::string wheel : wheel_names) parts.insert("TYRE_" + wheel);
+  for (const auto& part : parts) deck.line("*EL PRINT, ELSET={}, TOTALS=ONLY, TIME POINTS=FRAMES\nELSE, ELKE", part);
 }
 
 /// Writes the steps of the equilibrium; each says all that acts in it.
@@ -117,8 +136,10 @@ class StepText {
     end();
   }
 
-  /// How it bounces, pitches and rolls on its springs, and its wheels hop on their tyres.
-  void ride() { deck_.line("**\n*STEP, NAME=RIDE, PERTURBATION\n*FREQUENCY\n30\n*END STEP"); }
+  /// How it bounces, pitches and rolls on its springs, and its wheels hop on their tyres; up to 60 Hz how its body twists and bends.
+  void ride() {
+    deck_.line("**\n*STEP, NAME=RIDE, PERTURBATION\n*FREQUENCY\n{}\n*END STEP", spec_.fidelity == "complete" ? "90, , 0.06" : "30");
+  }
 
  private:
   double rise() const { return facts_.outer_radius + spec_.chassis.road.clearance - spec_.profile.wheel_height; }
@@ -201,7 +222,8 @@ void write_kinematics(const CarSpec& spec, double travel, DeckText& deck) {
   }
 }
 
-void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, const CornerWeights& loads, DeckText& deck) {
+void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre, const TyreFacts& facts,
+                 const CornerWeights& loads, DeckText& deck) {
   const auto& drive = spec.chassis.drive;
   deck.chapter("DRIVE: the roads run, the car is free");
   const auto centres = wheel_centres(spec);
@@ -214,6 +236,7 @@ void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& fac
     deck.line("{:g}, {:g}, {:g}, {:g}, {:g}, {:g}", at[0], at[1], at[2], at[0], at[1] + 1.0, at[2]);  // two points of the axis
   }
   for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -drive.speed);
+  deck.line("*TIME POINTS, NAME=FRAMES, GENERATE\n0., {:g}, {:g}", drive.duration, drive.duration / drive.frames);
   deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}",
             tyre.rolling.scale_factor, drive.duration, tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
   if (drive.stable_increment > 0.0) deck.line("*FIXED MASS SCALING, TYPE=BELOW MIN, DT={:g}", drive.stable_increment);
@@ -229,7 +252,9 @@ void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& fac
       "*OUTPUT, FIELD, NUMBER INTERVAL={}\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, TIME INTERVAL={:g}",
       drive.frames, drive.history_interval);
   write_history(deck);
-  deck.line("*ENERGY OUTPUT\nALLIE, ALLKE, ALLWK, ETOTAL\n*RESTART, WRITE, NUMBER INTERVAL=4\n*END STEP");
+  deck.line("*ENERGY OUTPUT\nALLIE, ALLKE, ALLWK, ETOTAL");
+  write_parts_history(spec, mesh, deck);
+  deck.line("*RESTART, WRITE, NUMBER INTERVAL=4\n*END STEP");
 }
 
 }  // namespace balocco::car

@@ -21,6 +21,7 @@ void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFact
 void write_kinematics(const CarSpec& spec, double travel, DeckText& deck);
 
 /// The car rolls freely while the roads run under it, from where the equilibrium ended, its wheels under `loads`.
-void write_drive(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, const CornerWeights& loads, DeckText& deck);
+void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre, const TyreFacts& facts,
+                 const CornerWeights& loads, DeckText& deck);
 
 }  // namespace balocco::car

@@ -33,16 +33,19 @@ void append(const Model& tyre, const Vector& centre, const std::string& suffix, 
     model.sections.push_back(section);
   }
   std::vector<std::int32_t> first_row;  // by table: where this copy's elements begin
+  std::vector<ElementRef> all;
   for (std::size_t table = 0; table < tyre.elements.size(); ++table) {
     const auto& from = tyre.elements[table];
     if (table == model.elements.size()) model.elements.push_back({.type = from.type});
     auto& to = model.elements[table];
     first_row.push_back(to.size());
+    for (std::int32_t row = 0; row < from.size(); ++row) all.push_back({static_cast<std::int32_t>(table), to.size() + row});
     for (const auto node : from.connectivity) to.connectivity.push_back(first_node + node);
     for (const auto section : from.section) to.section.push_back(first_section + section);
     to.id.insert(to.id.end(), from.id.begin(), from.id.end());
     to.location.insert(to.location.end(), from.location.begin(), from.location.end());
   }
+  add_element_set(model, "TYRE" + suffix, std::move(all));
   for (auto set : tyre.node_sets) {
     set.name += suffix;
     for (auto& node : set.nodes) node += first_node;
