@@ -10,6 +10,7 @@
 #include "builders/car/body_parts.hpp"
 #include "builders/car/car_builder.hpp"
 #include "builders/car/chassis_shells.hpp"
+#include "builders/car/rail_sections.hpp"
 #include "builders/car/suspension.hpp"
 #include "builders/car/tyre_placement.hpp"
 #include "model/diagnostics.hpp"
@@ -102,6 +103,31 @@ TEST(CarBody, IsOnePieceAtEveryMeshSize) {
     const auto report = built(changed(main_spec(), "mesh_size = 40.0", std::string("mesh_size = ") + size)).report;
     EXPECT_EQ(report.find("warning"), std::string::npos) << report;
   }
+}
+
+TEST(CarRails, SectionGoesOnceAcrossTheirMiddle) {
+  BodyMesh mesh;
+  mesh.add_both(flat("REAR_RAIL", 0.0));  // x from 0 to 1000 in ten columns
+  mesh.add(flat("FLOOR", 1.0));
+  DeckText deck;
+  write_rail_section(mesh, *mesh.find("REAR_RAIL_LEFT"), 1001, deck);
+  write_rail_section(mesh, *mesh.find("FLOOR"), 2001, deck);
+  std::istringstream lines(deck.text());
+  std::string line;
+  std::getline(lines, line);
+  EXPECT_EQ(line, "*ELSET, ELSET=SECTION_REAR_RAIL_LEFT");
+  std::getline(lines, line);
+  std::istringstream numbers(line);
+  const auto& part = *mesh.find("REAR_RAIL_LEFT");
+  int count = 0;
+  for (std::string number; std::getline(numbers, number, ','); ++count) {
+    const auto& corners = part.quadrilaterals.at(std::stoul(number) - 1001);
+    double middle = 0.0;
+    for (const int node : corners) middle += 0.25 * mesh.nodes()[node][0];
+    EXPECT_NEAR(middle, 550.0, 1e-9);  // of 450 and 550, which share the middle, the one ahead
+  }
+  EXPECT_EQ(count, 10);
+  EXPECT_FALSE(std::getline(lines, line));  // a floor has none
 }
 
 TEST(CarSubframe, IsARingOfTwoWeldedHalvesAlikeOnBothSides) {
@@ -230,6 +256,21 @@ TEST(CarBuilder, SaysByOneWordWhatDeforms) {
   EXPECT_NE(list(rigid).find("\nSTRUT_HOUSE_TOP_LEFT\n"), std::string::npos);
   EXPECT_EQ(list(some).find("\nSTRUT_HOUSE_TOP_LEFT\n"), std::string::npos);
   EXPECT_NE(list(some).find("\nROOF\n"), std::string::npos);
+}
+
+TEST(CarBuilder, DriveTellsOfWhatDeforms) {
+  const auto drive = [](const char* fidelity) {
+    return build_car(main_spec(), BALOCCO_CAR_SPEC, load, {.obstacle = "", .fidelity = fidelity}).drive;
+  };
+  const auto complete = drive("complete"), some = drive("semi-flexible"), rigid = drive("rigid");
+  const auto tells = [](const std::string& deck, const char* words) { return deck.find(words) != std::string::npos; };
+  for (const auto* rails : {"ELSET=SECTION_FRONT_RAIL_LEFT\nSF", "ELSET=SECTION_REAR_RAIL_RIGHT\nSF"}) {
+    EXPECT_TRUE(tells(complete, rails));
+    EXPECT_FALSE(tells(some, rails));
+  }
+  EXPECT_TRUE(tells(some, "*EL PRINT, ELSET=SUBFRAME,"));
+  EXPECT_FALSE(tells(rigid, "*EL PRINT, ELSET=SUBFRAME,"));
+  EXPECT_TRUE(tells(rigid, "*EL PRINT, ELSET=TYRE_FRONT_LEFT,"));
 }
 
 TEST(CarBuilder, APotholeLiesBelowTheLeftWheelsAloneAndTheObstacleBelowBothSides) {
