@@ -34,6 +34,11 @@ class Loads:
         self.force = {name: smooth(columns["time"], columns[name], car_findings.CUTOFF) for name in COMPARED}
 
 
+def title(name):
+    place, _, component = name.rpartition("_")
+    return f"{words(place)}, {component}"
+
+
 def figure(drives):
     """One panel a force; one line a drive, as far as the shorter one goes."""
     shown, axes = grid(len(COMPARED) // 2, 2, height=2.5)
@@ -42,7 +47,7 @@ def figure(drives):
             axis.plot(drives[fidelity].distance[name] / 1e3, drives[fidelity].force[name], style, linewidth=1.0, label=fidelity)
         axis.set_xlim(*(end / 1e3 for end in common_range(drives, name)))
         axis.set_ylabel("N")
-        axis.set_title(words(name[:-3]) + name[-3:].replace("_", ", "), fontsize=9)
+        axis.set_title(title(name), fontsize=9)
         axis.grid(alpha=0.25)
         axis.legend(fontsize=7)
     for axis in axes[-1]:
@@ -69,5 +74,5 @@ def rows(drives):
     found = []
     for name in COMPARED:
         one, other, spread = difference(drives, name)
-        found.append((words(name), one, other, other - one, spread))
+        found.append((title(name), one, other, other - one, spread))
     return found

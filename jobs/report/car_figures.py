@@ -82,7 +82,7 @@ def modes(results, found, standing):
     rest, _ = deformed(results, standing)
     for axis, mode in zip(axes.flat, found):
         shape = mode.group["node/U"][:].astype(float)
-        shape *= 120.0 / np.linalg.norm(shape, axis=1).max()
+        shape *= (250.0 if mode.shares else 120.0) / np.linalg.norm(shape, axis=1).max()  # bodies bend less than wheels hop
         view = view_of_mode(mode.kind)
         draw(axis, view, rest, np.full((len(rest), 4), (0.8, 0.8, 0.8, 0.5)), 0.0)
         corners, normals = deformed(results, standing + shape)

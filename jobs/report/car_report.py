@@ -76,7 +76,7 @@ def describe_modes(page, results):
     found = car_modes.modes(results.file)
     if not found:
         return page.missing("The job has no frequency step.")
-    page.table(("frequency, Hz", "what moves"), [(mode.frequency, mode.kind) for mode in found])
+    page.table(("frequency, Hz", "on springs and tyres"), [(mode.frequency, mode.kind) for mode in found if not mode.shares])
     page.text("Cars of the class: bounce at 1.1 to 1.5 Hz, wheels hop at 10 to 14 Hz, the body twists and bends at 20 to 60 Hz.")
     own = [mode for mode in found if mode.shares]
     if own:
@@ -163,8 +163,10 @@ def describe_both(page, folder):
 
 
 def instants_of_stress(obstacle, columns, away):
-    """Times at which stress is shown, by what happens then."""
+    """Times at which stress is shown, by what happens then; none before the obstacle."""
     wheel = "wheel_centre_front_left"
+    if away[wheel].max() < 0.0:
+        return {}
     if not obstacle.hole:
         return {"the front wheels above the obstacle's middle": float(np.interp(0.0, away[wheel], columns["time"]))}
     return {"the left front wheel strikes the ramp out of the hole": float(columns["time"][np.argmax(columns[f"{wheel}_Fz"])]),
@@ -175,6 +177,8 @@ def describe_stress(page, drive, instants, fidelity):
     page.heading("Stress of strut houses and subframe")
     if fidelity == "rigid":
         return page.missing("These parts are rigid in this job; BALOCCO_FIDELITY=semi-flexible or complete makes them deform.")
+    if not instants:
+        return page.missing("The drive ends before the obstacle.")
     for happens, time in instants.items():
         frame = min(drive.steps[-1].frames, key=lambda frame: abs(frame.step_time - time))
         groups = {title: wanted for title, wanted in PARTS.items() if car_figures.stress_of(drive, frame, wanted)}
