@@ -86,7 +86,7 @@ def ride_words(wheels, mounts):
     if body > 0.3 and wheel < 0.3 * body:
         heave, roll = 0.5 * (mounts[[0, 2]] + mounts[[1, 3]]), 0.5 * (mounts[[0, 2]] - mounts[[1, 3]])
         return "body rolls" if np.abs(roll).max() > np.abs(heave).max() else "body: front %+.2f, rear %+.2f" % tuple(heave)
-    if wheel > 0.5 and body < 0.1 * wheel:
+    if wheel > 0.5 and body < 0.2 * wheel:
         return "hop: " + ", ".join("%s %+.2f" % (name.lower(), value) for name, value in zip(WHEELS, wheels) if abs(value) > 0.2)
     return None
 
