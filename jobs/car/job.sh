@@ -4,14 +4,15 @@
 ranks=$1
 obstacle=${BALOCCO_OBSTACLE:-comfort}
 fidelity=${BALOCCO_FIDELITY:-semi-flexible}
+spec=${balocco_car_spec:-$balocco_root/jobs/car/car.toml}
 output=$2/${obstacle}_$fidelity
 mkdir -p "$output"
 rm -f "$output/kinematics.h5" "$output/drive.h5"    # the report tells of this job alone
 
-"$BALOCCO_BUILD/balocco" car "$balocco_root/jobs/car/car.toml" --fidelity rigid --output "$output/car.inp" \
+"$BALOCCO_BUILD/balocco" car "$spec" --fidelity rigid --output "$output/car.inp" \
   --kinematics "$output/kinematics.inp" >/dev/null    # the axles' own kinematics: nothing else gives way
 "${BALOCCO_MPIRUN[@]}" -n 1 "$BALOCCO_BUILD/balocco" run "$output/kinematics.inp" --output "$output"
-"$BALOCCO_BUILD/balocco" car "$balocco_root/jobs/car/car.toml" --obstacle "$obstacle" --fidelity "$fidelity" --output "$output/car.inp" \
+"$BALOCCO_BUILD/balocco" car "$spec" --obstacle "$obstacle" --fidelity "$fidelity" --output "$output/car.inp" \
   --drive "$output/drive.inp" | tee "$output/car.txt"
 "$PYTHON" "$balocco_root/jobs/report/car_picture.py" "$output/car.inp" "$output/car.png"
 "$PYTHON" "$balocco_root/jobs/report/car_kinematics.py" "$output/kinematics.h5" | tee "$output/kinematics.txt"
