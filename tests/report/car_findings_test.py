@@ -14,6 +14,7 @@ import car_comparison  # noqa: E402
 import car_energies  # noqa: E402
 import car_findings  # noqa: E402
 import car_loads  # noqa: E402
+import car_report  # noqa: E402
 import car_sections  # noqa: E402
 
 
@@ -31,6 +32,23 @@ class Findings(unittest.TestCase):
         self.assertAlmostEqual(amplitude, 700.0, delta=1.0)
         self.assertAlmostEqual(frequency, 30.0, delta=0.5)
         self.assertIsNone(car_findings.ringing(time[:200], force[:200], distance[:200]))
+
+    def test_stress_is_shown_at_the_middle_of_a_bar_and_at_the_end_of_a_hole(self):
+        time = np.arange(0.0, 101.0)
+        columns = {"time": time, "wheel_centre_front_left_Fz": np.where(time == 70.0, 9000.0, 4000.0)}
+        away = {"wheel_centre_front_left": 10.0 * time - 400.0}
+        when = lambda hole, away: list(car_report.instants_of_stress(types.SimpleNamespace(hole=hole), columns, away).values())
+        self.assertEqual(when(False, away), [40.0])
+        self.assertEqual(when(True, away), [70.0, 100.0])
+        self.assertEqual(when(True, {"wheel_centre_front_left": away["wheel_centre_front_left"] - 700.0}), [])
+
+    def test_peaks_of_the_rear_wheel_count_from_the_ramp_on(self):
+        distance = np.linspace(-1000.0, 1000.0, 201)
+        columns = {"wheel_centre_rear_left_Fz": np.where(distance < -500.0, 99e3, np.where(distance == 500.0, 21e3, 2e3)),
+                   "wheel_centre_rear_left_Fx": np.where(distance == 520.0, -18e3, 0.0)}
+        found = lambda distance: car_findings.rear_peaks(columns, {"wheel_centre_rear_left": distance})
+        self.assertEqual(found(distance), "21.0 kN and 18.0 kN")
+        self.assertEqual(found(distance - 2000.0), "not reached in this drive")
 
     def test_two_drives_are_compared_where_both_have_been(self):
         name = car_comparison.COMPARED[0]
