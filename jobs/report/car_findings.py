@@ -107,8 +107,8 @@ def compare(obstacle, columns, away, drive, step, fidelity):
         return rows
     most = float(np.abs(along[near]).max())
     rows += [("peaks of vertical and longitudinal force", "about equal, 24 kN", f"{highest / 1e3:.1f} kN and {most / 1e3:.1f} kN"),
-             ("peak over static load", "six", f"{highest / static:.1f}"),
-             ("the same of the left rear wheel", "", rear_peaks(columns, away)),
+             ("the same two of the left rear wheel", "", rear_peaks(columns, away)),
+             ("front peak over static load", "six", f"{highest / static:.1f}"),
              ("vertical peak at the strut mount", "10.5 kN", f"{columns[mount + '_Fz'][near].max() / 1e3:.1f} kN"),
              ("strut mount", "yields", house), ("subframe", "", frame)]
     return rows
