@@ -20,6 +20,7 @@
 #include "job_observer.hpp"
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
+#include "nastran_reader.hpp"
 #include "procedures.hpp"
 #include "restart_read.hpp"
 #include "results_diff.hpp"
@@ -32,7 +33,7 @@ namespace {
 enum ExitStatus { completed = 0, different = 1, bad_input = 2, analysis_failed = 3, stopped = 4, system_trouble = 5 };
 
 struct Command {
-  std::string deck, output = ".", last_step, spec, model_file, drive_file, kinematics_file, picture, results;
+  std::string deck, output = ".", last_step, spec, model_file, drive_file, kinematics_file, picture, results, foreign_mesh;
   CarChoices car;
   std::string other_results;
   double relative = 0.0;
@@ -219,6 +220,15 @@ int build_car_deck(const Command& command) {
   return completed;
 }
 
+int convert(const Command& command) {
+  const auto text = file_loader()(command.foreign_mesh);
+  if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of Nastran bulk data", command.foreign_mesh));
+  const auto [model, summary] = read_nastran(*text, command.foreign_mesh);
+  write_text(command.model_file, write_deck(model));
+  fmt::print("{}", summary);
+  return completed;
+}
+
 int show_info(const Command& command) {
   fmt::print("{}", describe_results(command.results));
   return completed;
@@ -279,6 +289,10 @@ int dispatch(int argc, char** argv) {
   car_command->add_option("--fidelity", command.car.fidelity, "What deforms, instead of the description's: complete, semi-flexible or rigid")
       ->check(CLI::IsMember({"complete", "semi-flexible", "rigid"}));
 
+  auto* convert_command = app.add_subcommand("convert", "Write the shells of Nastran bulk data as a deck");
+  convert_command->add_option("mesh", command.foreign_mesh, "Nastran bulk data")->required();
+  convert_command->add_option("--output", command.model_file, "Deck to write")->required();
+
   auto* info_command = app.add_subcommand("info", "Show what a result file holds");
   info_command->add_option("results", command.results, "JOB.h5")->required();
 
@@ -303,6 +317,7 @@ int dispatch(int argc, char** argv) {
   if (*diff_command) return alone(show_difference, command);
   if (*tyre_command) return alone(build_tyre_deck, command);
   if (*car_command) return alone(build_car_deck, command);
+  if (*convert_command) return alone(convert, command);
   return alone(show_info, command);
 }
 
