@@ -201,9 +201,9 @@ int build_tyre_deck(const Command& command) {
   const auto text = file_loader()(command.spec);
   if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of a tyre description (TOML)", command.spec));
   std::string report;
-  const auto built = build_tyre(*text, command.spec, report);
+  const auto built = build_tyre(*text, command.spec, file_loader(), report);
   write_text(command.model_file, write_deck(built));
-  if (!command.picture.empty()) write_text(command.picture, tyre_section_svg(*text, command.spec));
+  if (!command.picture.empty()) write_text(command.picture, tyre_section_svg(*text, command.spec, file_loader()));
   fmt::print("{}", report);
   return completed;
 }

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <numeric>
 #include <sstream>
 
@@ -28,14 +29,64 @@ std::optional<double> as_number(const toml::value& value) {
   return std::nullopt;
 }
 
+std::string where_of(const toml::value& value) {
+  const auto location = value.location();
+  return fmt::format("{}:{}", location.file_name(), location.line());
+}
+
+toml::value parse_alone(const std::string& text, const std::string& file_name) {
+  std::istringstream stream(text);
+  try {
+    return toml::parse(stream, file_name);
+  } catch (const toml::exception& error) {
+    // The library's message spans several lines; its first one says what is wrong.
+    std::string what = error.what();
+    if (const auto marker = what.find("[error] "); marker != std::string::npos) what.erase(0, marker + 8);
+    what = what.substr(0, what.find('\n'));
+    throw InputError(
+        fmt::format("{}:{}: error: TOML syntax: {}; see https://toml.io", file_name, error.location().line(), what));
+  }
+}
+
+/// Gives a table what it does not say itself.
+void complete(toml::value& table, const toml::value& base) {
+  auto& own = table.as_table();
+  for (const auto& [key, value] : base.as_table()) {
+    const auto [found, taken] = own.emplace(key, value);
+    if (!taken && found->second.is_table() && value.is_table()) complete(found->second, value);
+  }
+}
+
+/// `chain`: the files that are based on this one, which comes last.
+toml::value parse_with_base(const std::string& text, const FileText& load, std::vector<std::string> chain) {
+  const auto& file_name = chain.back();
+  auto spec = parse_alone(text, file_name);
+  const auto base = spec.as_table().find("base");
+  if (base == spec.as_table().end()) return spec;
+  const auto fail = [&](const std::string& what) {
+    throw InputError(fmt::format("{}: error: base: {}", where_of(base->second), what));
+  };
+  if (!base->second.is_string()) fail("not a text; write the path of a description in quotes");
+  const auto path = beside(file_name, base->second.as_string().str);
+  if (std::ranges::find(chain, path) != chain.end())
+    fail(fmt::format("{} is based on this file in turn; remove one base of the chain", path));
+  const auto base_text = load(path);
+  if (!base_text) fail(fmt::format("no file {}; give the path of a description from this file's folder", path));
+  chain.push_back(path);
+  const auto taken = parse_with_base(*base_text, load, std::move(chain));
+  spec.as_table().erase(base);
+  complete(spec, taken);
+  return spec;
+}
+
 }  // namespace
 
-void SpecFaults::add(std::size_t line, std::string_view table, std::string_view key, std::string_view what_and_cure) {
+void SpecFaults::add(const std::string& where, std::string_view table, std::string_view key, std::string_view what_and_cure) {
   if (messages_.size() >= most_messages) return;
   const auto place = table.empty() ? std::string(key)
                      : key.empty() ? fmt::format("[{}]", table)
                                    : fmt::format("[{}] {}", table, key);
-  messages_.push_back(fmt::format("{}:{}: error: {}: {}", file_name_, line, place, what_and_cure));
+  messages_.push_back(fmt::format("{}: error: {}: {}", where, place, what_and_cure));
 }
 
 void SpecFaults::throw_if_any() const {
@@ -49,17 +100,17 @@ bool SpecTable::has(std::string_view key) const {
   return value_ != nullptr && value_->as_table().count(std::string(key)) > 0;
 }
 
-std::size_t SpecTable::line_of(std::string_view key) const {
-  if (value_ == nullptr) return 1;
+std::string SpecTable::where(std::string_view key) const {
+  const auto top = faults_->file_name() + ":1";  // which has no header of its own
+  if (value_ == nullptr) return top;
   const auto& table = value_->as_table();
   const auto found = table.find(std::string(key));
-  // The top of the file has no header of its own.
-  if (found == table.end()) return name_.empty() ? 1 : value_->location().line();
-  return found->second.location().line();
+  if (found == table.end()) return name_.empty() ? top : where_of(*value_);
+  return where_of(found->second);
 }
 
 void SpecTable::fault(std::string_view key, std::string_view what_and_cure) {
-  faults_->add(line_of(key), name_, key, what_and_cure);
+  faults_->add(where(key), name_, key, what_and_cure);
 }
 
 const toml::value* SpecTable::find(std::string_view key, bool required) {
@@ -160,7 +211,7 @@ std::vector<std::vector<double>> SpecTable::rows(std::string_view key, std::size
     const bool whole =
         row.is_array() && numbers.size() == row.as_array().size() && numbers.size() >= least && numbers.size() <= most;
     if (!whole) {
-      faults_->add(row.location().line(), name_, key,
+      faults_->add(where_of(row), name_, key,
                    fmt::format("row {} needs {} to {} numbers; mend it", rows.size() + 1, least, most));
       numbers.assign(most, 0.0);
     }
@@ -221,18 +272,12 @@ std::string nearest_word(std::string_view word, const std::vector<std::string>& 
   return nearest;
 }
 
-toml::value parse_spec(const std::string& text, const std::string& file_name) {
-  std::istringstream stream(text);
-  try {
-    return toml::parse(stream, file_name);
-  } catch (const toml::exception& error) {
-    // The library's message spans several lines; its first one says what is wrong.
-    std::string what = error.what();
-    if (const auto marker = what.find("[error] "); marker != std::string::npos) what.erase(0, marker + 8);
-    what = what.substr(0, what.find('\n'));
-    throw InputError(
-        fmt::format("{}:{}: error: TOML syntax: {}; see https://toml.io", file_name, error.location().line(), what));
-  }
+std::string beside(const std::string& file_name, const std::string& path) {
+  return (std::filesystem::path(file_name).parent_path() / path).lexically_normal().string();
+}
+
+toml::value parse_spec(const std::string& text, const std::string& file_name, const FileText& load) {
+  return parse_with_base(text, load, {std::filesystem::path(file_name).lexically_normal().string()});
 }
 
 }  // namespace balocco

@@ -1,4 +1,5 @@
-// Reading a TOML description: typed values with bounds and units, unknown keys refused, every fault collected.
+// Reading a TOML description, alone or based on another: typed values with bounds and units, unknown keys refused, every fault
+// collected and told where its value stands.
 #pragma once
 
 #include <optional>
@@ -7,14 +8,18 @@
 #include <toml.hpp>
 #include <vector>
 
+#include "builders/file_text.hpp"
+
 namespace balocco {
 
 /// Faults of one description, each a whole message "FILE:LINE: error: [table] key: what; cure".
 class SpecFaults {
  public:
   explicit SpecFaults(std::string file_name) : file_name_(std::move(file_name)) {}
-  void add(std::size_t line, std::string_view table, std::string_view key, std::string_view what_and_cure);
+  /// `where`: "FILE:LINE".
+  void add(const std::string& where, std::string_view table, std::string_view key, std::string_view what_and_cure);
   bool empty() const { return messages_.empty(); }
+  const std::string& file_name() const { return file_name_; }
   /// @throws InputError if anything was added.
   void throw_if_any() const;
 
@@ -56,8 +61,8 @@ class SpecTable {
   /// Names of the sub-tables, sorted.
   std::vector<std::string> table_names();
   void fault(std::string_view key, std::string_view what_and_cure);
-  /// Line of the file where the key stands, or the table if it does not.
-  std::size_t line_of(std::string_view key) const;
+  /// "FILE:LINE" where the key stands, or the table if it does not.
+  std::string where(std::string_view key) const;
   /// Reports every key that nothing asked for. Call after the last value was read.
   void refuse_unknown();
 
@@ -73,7 +78,9 @@ class SpecTable {
 /// The candidate nearest to `word` in edits (Levenshtein), or "" when none is nearer than half its length.
 std::string nearest_word(std::string_view word, const std::vector<std::string>& candidates);
 
-/// Parses a description. @throws InputError "FILE:LINE: error: ..." on a syntax error.
-toml::value parse_spec(const std::string& text, const std::string& file_name);
+/// Parses a description. Where it says `base = "OTHER.toml"` it takes everything from there, by `load`, but for what it says itself:
+/// tables key by key, arrays whole. @throws InputError "FILE:LINE: error: ..." on a syntax error, a base that is not there or a chain
+/// that closes.
+toml::value parse_spec(const std::string& text, const std::string& file_name, const FileText& load);
 
 }  // namespace balocco

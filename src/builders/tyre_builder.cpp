@@ -8,8 +8,8 @@
 
 namespace balocco {
 
-Model build_tyre(const std::string& toml_text, const std::string& file_name, std::string& report) {
-  const auto spec = read_tyre_spec(toml_text, file_name);
+Model build_tyre(const std::string& toml_text, const std::string& file_name, const FileText& load, std::string& report) {
+  const auto spec = read_tyre_spec(toml_text, file_name, load);
   const auto section = make_section(spec);
   Model model;
   model.name = "tyre";
@@ -27,8 +27,8 @@ Model build_tyre(const std::string& toml_text, const std::string& file_name, std
   return model;
 }
 
-std::string tyre_section_svg(const std::string& toml_text, const std::string& file_name) {
-  const auto spec = read_tyre_spec(toml_text, file_name);
+std::string tyre_section_svg(const std::string& toml_text, const std::string& file_name, const FileText& load) {
+  const auto spec = read_tyre_spec(toml_text, file_name, load);
   return section_svg(spec, make_section(spec));
 }
 

@@ -114,9 +114,9 @@ void add_quads(const TyreSpec& spec, TyreSection& section) {
       if (smallest_corner(section, section.quads.back()) > 0.0) continue;
       const auto& node = section.nodes[inside[j]];
       throw InputError(fmt::format(
-          "{}:{}: error: [section] points: the rubber outside the line folds over itself near radius {:.1f} mm, axial "
+          "{}: error: [section] points: the rubber outside the line folds over itself near radius {:.1f} mm, axial "
           "{:.1f} mm; make it thinner there or the line less curved",
-          spec.file_name, spec.region(region).line, node[0], node[1]));
+          spec.region(region).where, node[0], node[1]));
     }
   }
 }
@@ -155,10 +155,10 @@ void find_wires(const TyreSpec& spec, TyreSection& section) {
   }
   if (section.wire_nodes.empty())
     throw InputError(
-        fmt::format("{}:{}: error: [bead_wire] bottom: no node of the line lies between {} and {} mm above the toe; "
+        fmt::format("{}: error: [bead_wire] bottom: no node of the line lies between {} and {} mm above the toe; "
                     "widen the range or "
                     "raise elements in [section.bead]",
-                    spec.file_name, spec.bead.line, spec.bead.bottom, spec.bead.top));
+                    spec.bead.where, spec.bead.bottom, spec.bead.top));
 }
 
 /// Sidewall rubber of the described section whatever the model, spread evenly over the line.

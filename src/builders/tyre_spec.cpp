@@ -137,7 +137,7 @@ void read_section(SpecTable& top, TyreSpec& spec) {
     auto table = section.table(region_names[r]);
     auto& region = spec.regions[r];
     read_points(table, static_cast<Region>(r) != Region::sidewall, region);
-    region.line = table.line_of("points");
+    region.where = table.where("points");
     region.elements = table.integer("elements", 1, 200);
     region.plies = read_ply_names(table, "plies", spec);
     if (static_cast<Region>(r) == Region::bead) {
@@ -167,7 +167,7 @@ void read_bead_and_rim(SpecTable& top, TyreSpec& spec) {
   spec.bead.poisson = bead.number("poisson", Bounds::between(0.0, 0.499, ""), 0.3);
   spec.bead.density = bead.number("density", Bounds::positive("g/mm3"));
   spec.bead.bottom = bead.number("bottom", Bounds::not_negative("mm"));
-  spec.bead.line = bead.line_of("bottom");
+  spec.bead.where = bead.where("bottom");
   spec.bead.top = bead.number("top", Bounds::positive("mm"));
   if (spec.bead.top <= spec.bead.bottom) bead.fault("top", "not above the bottom; give the bundle a height");
   bead.refuse_unknown();
@@ -280,8 +280,8 @@ void read_road(SpecTable& top, RoadSpec& road) {
   table.refuse_unknown();
 }
 
-TyreSpec read_tyre_spec(const std::string& toml_text, const std::string& file_name) {
-  const auto file = parse_spec(toml_text, file_name);
+TyreSpec read_tyre_spec(const std::string& toml_text, const std::string& file_name, const FileText& load) {
+  const auto file = parse_spec(toml_text, file_name, load);
   SpecFaults faults(file_name);
   SpecTable top(&file, "", faults);
   TyreSpec spec;

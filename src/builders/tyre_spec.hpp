@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "builders/file_text.hpp"
+
 namespace balocco {
 
 class SpecTable;
@@ -62,14 +64,14 @@ struct RegionSpec {
   std::vector<SectionPoint> points;
   int elements = 0;
   std::vector<int> plies;  // rows of TyreSpec::plies, from outside to inside
-  std::size_t line = 1;    // of the file, where the points stand
+  std::string where;       // the points stand, for messages
 };
 
 struct BeadSpec {
   double area = 0.0;  // mm2 of wire a side
   double modulus = 0.0, poisson = 0.0, density = 0.0;
   double bottom = 0.0, top = 0.0;  // mm above the toe between which the bundle of wires lies
-  std::size_t line = 1;            // of the file, where the bottom stands
+  std::string where;               // the bottom stands, for messages
 };
 
 struct RimSpec {
@@ -153,6 +155,6 @@ struct TyreSpec {
 void read_road(SpecTable& top, RoadSpec& road);
 
 /// @throws InputError with every fault found.
-TyreSpec read_tyre_spec(const std::string& toml_text, const std::string& file_name);
+TyreSpec read_tyre_spec(const std::string& toml_text, const std::string& file_name, const FileText& load);
 
 }  // namespace balocco

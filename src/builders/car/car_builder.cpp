@@ -2,8 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
-
 #include "builders/car/body_deck.hpp"
 #include "builders/car/body_parts.hpp"
 #include "builders/car/car_report.hpp"
@@ -61,7 +59,7 @@ void check_tyre(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& fact
   const double height = spec.profile.wheel_height, flange = 0.5 * tyre.rim.diameter + tyre.rim.flange_height;
   const auto fault = [&](const std::string& words) {
     throw InputError(
-        fmt::format("{}:{}: error: [profile] wheel_height: {}", spec.file_name, spec.profile.wheel_height_line, words));
+        fmt::format("{}: error: [profile] wheel_height: {}", spec.profile.wheel_height_where, words));
   };
   if (height >= facts.outer_radius)
     fault(fmt::format("at {:g} mm the tyre of {:.0f} mm radius is not on the road; lower the wheels, or give a larger tyre", height,
@@ -83,14 +81,10 @@ std::string car_without_tyres(const CarSpec& spec, const BodyMesh& mesh, const C
   return deck.text();
 }
 
-std::string beside(const std::string& file_name, const std::string& path) {
-  return (std::filesystem::path(file_name).parent_path() / path).string();
-}
-
 }  // namespace
 
 CarDeck build_car(const std::string& toml_text, const std::string& file_name, const FileText& load, const CarChoices& choices) {
-  const auto spec = read_car_spec(toml_text, file_name, choices);
+  const auto spec = read_car_spec(toml_text, file_name, load, choices);
   std::vector<WeldLine> welds;
   const auto mesh = make_body(spec, welds);
   const auto tyre_file = beside(file_name, spec.tyre);
@@ -98,7 +92,7 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   if (!tyre_text)
     throw InputError(fmt::format("{}:1: error: tyre: no file {}; give the path of a tyre's description from this file's folder",
                                  file_name, tyre_file));
-  const auto tyre = read_tyre_spec(*tyre_text, tyre_file);
+  const auto tyre = read_tyre_spec(*tyre_text, tyre_file, load);
 
   CarDeck car;
   car.tyres.heading =

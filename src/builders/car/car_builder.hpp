@@ -1,11 +1,10 @@
 // The car builder: a description of a car (TOML) becomes a complete deck.
 #pragma once
 
-#include <functional>
-#include <optional>
 #include <string>
 
 #include "builders/car/car_choices.hpp"
+#include "builders/file_text.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
@@ -18,11 +17,8 @@ struct CarDeck {
   std::string report;  // masses, inertias and dimensions
 };
 
-/// Text of a file, if there is one.
-using FileText = std::function<std::optional<std::string>(const std::string& path)>;
-
-/// The car that `toml_text` describes, and its drive. `file_name` is named in messages; `load` reads the tyre's description. Units mm, ms,
-/// g, N, MPa.
+/// The car that `toml_text` describes, and its drive. `file_name` is named in messages; `load` reads the tyre's description and those
+/// that they are based on. Units mm, ms, g, N, MPa.
 /// @throws InputError with every fault found: "FILE:LINE: error: [table] key: what is wrong; how to mend it".
 CarDeck build_car(const std::string& toml_text, const std::string& file_name, const FileText& load, const CarChoices& choices = {});
 

@@ -54,7 +54,7 @@ void read_profile(SpecTable& top, ProfileSpec& profile) {
   profile.front_track = table.number("front_track", Bounds::positive("mm"));
   profile.rear_track = table.number("rear_track", Bounds::positive("mm"));
   profile.wheel_height = table.number("wheel_height", Bounds::positive("mm"));
-  profile.wheel_height_line = table.line_of("wheel_height");
+  profile.wheel_height_where = table.where("wheel_height");
   profile.plan = read_graph(table, "plan");
   profile.section = read_graph(table, "section");
   profile.waist = read_graph(table, "waist");
@@ -226,8 +226,9 @@ const std::vector<std::string> member_names{
     "cross_member", "cowl",         "front_frame", "bumper",     "dash_beam",  "roof_header", "roof_bow",       "waist_rail",
     "subframe"};
 
-CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const CarChoices& choices) {
-  const auto file = parse_spec(toml_text, file_name);
+CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const FileText& load,
+                      const CarChoices& choices) {
+  const auto file = parse_spec(toml_text, file_name, load);
   SpecFaults faults(file_name);
   SpecTable top(&file, "", faults);
   CarSpec spec;

@@ -46,7 +46,7 @@ struct MountSpec {
 /// The designer's lines.
 struct ProfileSpec {
   double wheelbase = 0.0, front_track = 0.0, rear_track = 0.0, wheel_height = 0.0;  // mm; height of the wheel centres
-  std::size_t wheel_height_line = 0;  // of the description, for faults that the tyre brings to light
+  std::string wheel_height_where;  // it stands, for faults that the tyre brings to light
   Graph plan;      // half width of the car at its widest height against x
   Graph section;   // the same in parts of it against z
   Graph waist;     // z of the lower edge of the windows, and of the wings' upper one, against x
@@ -94,6 +94,7 @@ struct CarSpec {
 extern const std::vector<std::string> member_names;
 
 /// @throws InputError with every fault found.
-CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const CarChoices& choices = {});
+CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name, const FileText& load,
+                      const CarChoices& choices = {});
 
 }  // namespace balocco::car

@@ -131,7 +131,7 @@ TEST(CarRails, SectionGoesOnceAcrossTheirMiddle) {
 }
 
 TEST(CarSubframe, IsARingOfTwoWeldedHalvesAlikeOnBothSides) {
-  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC);
+  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, load);
   BodyMesh mesh;
   add_subframe(spec, mesh);
   EXPECT_GT(mesh.weld("SUBFRAME_UPPER", "SUBFRAME_LOWER", 1.0, spec.weld_pitch), 40);
@@ -148,7 +148,7 @@ TEST(CarSubframe, IsARingOfTwoWeldedHalvesAlikeOnBothSides) {
 }
 
 TEST(CarTorsionBeam, EndsAtBothArmsWithTheSameNodes) {
-  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC);
+  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, load);
   BodyMesh mesh;
   add_torsion_beam(spec, mesh);
   const auto [left, right] = ends_of_torsion_beam(mesh);
@@ -212,7 +212,7 @@ TEST(CarSpec, WhatCannotBeAssembledIsToldWithLineAndCure) {
 }
 
 TEST(CarSprings, CarryTheSprungWeightAtDesignHeight) {
-  const auto spec = read_car_spec(main_spec(), "car.toml");
+  const auto spec = read_car_spec(main_spec(), "car.toml", load);
   BodyMesh mesh;
   const auto sprung = sprung_mass(spec, mesh);
   const auto weights = corner_weights(spec, sprung);

@@ -1,9 +1,15 @@
 // A small tyre description for the builder's tests.
 #pragma once
 
+#include <optional>
 #include <string>
 
 namespace balocco {
+
+/// What reads files for a description that names none.
+inline std::optional<std::string> no_file(const std::string&) {
+  return std::nullopt;
+}
 
 inline std::string sample_tyre(int model = 3) {
   return "title = \"sample\"\nmodel = " + std::to_string(model) + R"(

@@ -16,7 +16,7 @@ namespace {
 
 std::string faults_of(const std::string& text) {
   try {
-    read_tyre_spec(text, "t.toml");
+    read_tyre_spec(text, "t.toml", no_file);
   } catch (const InputError& error) {
     std::string all;
     for (const auto& message : error.messages()) all += message + "\n";
@@ -35,7 +35,7 @@ std::string faults_with(const std::string& from, const std::string& to) {
 }
 
 TEST(TyreSpec, ReadsTheSample) {
-  const auto spec = read_tyre_spec(sample_tyre(2), "t.toml");
+  const auto spec = read_tyre_spec(sample_tyre(2), "t.toml", no_file);
   EXPECT_EQ(spec.model, 2);
   EXPECT_EQ(spec.regions[0].points.size(), 3u);
   EXPECT_DOUBLE_EQ(spec.regions[1].points[1].cap, 4.2);
@@ -87,7 +87,7 @@ TEST(TyreSpec, RefusesImpossibleGeometry) {
 TEST(TyreSection, TellsTheLineOfWhatCannotBeMeshed) {
   const auto said = [](const std::string& text) {
     try {
-      make_section(read_tyre_spec(text, "t.toml"));
+      make_section(read_tyre_spec(text, "t.toml", no_file));
     } catch (const InputError& error) {
       return error.messages().front();
     }
@@ -110,6 +110,58 @@ TEST(TyreSpec, TellsTheLineOfASyntaxError) {
   EXPECT_EQ(faults_of(broken).find(at_line_of("frames", broken) + ": error: TOML syntax: "), 0u) << faults_of(broken);
 }
 
+/// A description that is based on the sample, its own lines before those of the base's tables.
+std::string faults_of_based(const std::string& text, const std::string& sample = sample_tyre(2)) {
+  const auto load = [&](const std::string& path) { return path == "base/sample.toml" ? std::optional(sample) : std::nullopt; };
+  try {
+    read_tyre_spec("base = \"../base/sample.toml\"\n" + text, "car/t.toml", load);
+  } catch (const InputError& error) {
+    return error.messages().front();
+  }
+  return "accepted";
+}
+
+TEST(SpecBase, GivesWhatADescriptionDoesNotSay) {
+  const auto load = [](const std::string&) { return std::optional(sample_tyre(2)); };
+  const auto* own = "base = \"sample.toml\"\nmodel = 1\n[rubber.soft]\nc01 = 0.3\n[section.belt]\nplies = [\"body\"]\n";
+  const auto spec = read_tyre_spec(own, "t.toml", load);
+  EXPECT_EQ(spec.model, 1);                        // its own
+  EXPECT_EQ(spec.title, "sample");                 // the base's
+  EXPECT_DOUBLE_EQ(spec.rubbers[0].c01, 0.3);      // tables key by key
+  EXPECT_DOUBLE_EQ(spec.rubbers[0].c10, 0.4);
+  EXPECT_EQ(spec.regions[0].plies.size(), 1u);     // arrays whole
+  EXPECT_EQ(spec.regions[0].elements, 4);
+}
+
+TEST(SpecBase, FaultsAreToldWhereTheirValuesStand) {
+  EXPECT_EQ(faults_of_based("[rim]\nwidth = -1.0\n"),
+            "car/t.toml:3: error: [rim] width: -1 is out of range; write a number > 0 mm");
+  const auto bad = sample_with("width = 127.0", "width = -127.0", 2);
+  EXPECT_EQ(faults_of_based("[rim]\nmass = 1.0\n", bad),
+            "base/sample" + at_line_of("width", bad).substr(1) +
+                ": error: [rim] width: -127 is out of range; write a number > 0 mm");
+  EXPECT_EQ(faults_of_based("[rim]\nwith = 1.0\n"), "car/t.toml:3: error: [rim] with: unknown key; did you mean \"width\"?");
+}
+
+TEST(SpecBase, MustBeThereAndNoCircle) {
+  const auto said = [](const std::string& first, const std::string& second) {
+    try {
+      const auto load = [&](const std::string& path) { return path == "b.toml" ? std::optional(second) : std::nullopt; };
+      read_tyre_spec(first, "a.toml", load);
+    } catch (const InputError& error) {
+      return error.messages().front();
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(said("base = \"c.toml\"\n", ""),
+            "a.toml:1: error: base: no file c.toml; give the path of a description from this file's folder");
+  EXPECT_EQ(said("base = 1\n", ""), "a.toml:1: error: base: not a text; write the path of a description in quotes");
+  EXPECT_EQ(said("base = \"b.toml\"\n", "\nbase = \"./a.toml\"\n"),
+            "b.toml:2: error: base: a.toml is based on this file in turn; remove one base of the chain");
+  EXPECT_EQ(said("base = \"a.toml\"\n", ""),
+            "a.toml:1: error: base: a.toml is based on this file in turn; remove one base of the chain");
+}
+
 TEST(SpecTable, NearestWordByEdits) {
   EXPECT_EQ(nearest_word("presure", {"load", "pressure"}), "pressure");
   EXPECT_EQ(nearest_word("xyz", {"load", "pressure"}), "");
@@ -118,7 +170,7 @@ TEST(SpecTable, NearestWordByEdits) {
 // By hand: fraction = 0.25 / (1.25 * 1.0) = 0.2; rubber shear modulus 2 (0.4 + 0.1) = 1, Young's modulus 2 * 1.49
 // = 2.98 MPa.
 TEST(TyreLamina, RuleOfMixturesAndHalpinTsai) {
-  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml", no_file);
   const auto lamina = make_lamina(spec.plies[1], spec);  // names are sorted: belt, body, liner
   EXPECT_NEAR(lamina.cord_fraction, 0.2, 1e-15);
   EXPECT_NEAR(lamina.modulus_1, 0.2 * 9870.0 + 0.8 * 2.98, 1e-9);
@@ -133,20 +185,20 @@ TEST(TyreLamina, RuleOfMixturesAndHalpinTsai) {
 
 // As many cords at 3 / 4 of the radius: 4 / 3 of the fraction. Belts are cut to width and keep their spacing.
 TEST(TyreLamina, RadialCordsGatherTowardsTheBead) {
-  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml", no_file);
   EXPECT_NEAR(make_lamina(ply_at(spec.plies[1], 0.75), spec).cord_fraction, 0.2 / 0.75, 1e-12);
   EXPECT_NEAR(make_lamina(ply_at(spec.plies[0], 0.75), spec).cord_fraction, 0.2, 1e-12);
 }
 
 TEST(TyreLamina, RubberAloneIsIsotropic) {
-  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml", no_file);
   const auto lamina = make_lamina(spec.plies[2], spec);
   EXPECT_DOUBLE_EQ(lamina.modulus_1, lamina.modulus_2);
   EXPECT_NEAR(lamina.shear_12, lamina.modulus_1 / (2.0 * (1.0 + lamina.poisson_12)), 1e-12);
 }
 
 TEST(TyreLamina, RadialPlyIsStiffAlongTheMeridian) {
-  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml", no_file);
   const auto stiffness = laminate_stiffness({1}, spec, 1.0);
   const auto lamina = make_lamina(spec.plies[1], spec);
   const double scale = 1.0 / (1.0 - lamina.poisson_12 * lamina.poisson_12 * lamina.modulus_2 / lamina.modulus_1);

@@ -30,7 +30,7 @@ struct Built {
 
 Built build(int model_number) {
   Built built;
-  built.spec = read_tyre_spec(sample_tyre(model_number), "t.toml");
+  built.spec = read_tyre_spec(sample_tyre(model_number), "t.toml", no_file);
   built.section = make_section(built.spec);
   built.mesh = add_tyre(built.spec, built.section, built.model);
   return built;
@@ -38,7 +38,7 @@ Built build(int model_number) {
 
 Model whole(int model_number) {
   std::string report;
-  return build_tyre(sample_tyre(model_number), "t.toml", report);
+  return build_tyre(sample_tyre(model_number), "t.toml", no_file, report);
 }
 
 const std::vector<ElementRef>& elements_of(const Model& model, const std::string& name) {
@@ -227,7 +227,7 @@ TEST(TyreMesh, ModelsDifferAsTheyShould) {
 }
 
 TEST(TyreMesh, RefinedArcLiesWhereItWasAsked) {
-  const auto spec = read_tyre_spec(sample_tyre(3), "t.toml");
+  const auto spec = read_tyre_spec(sample_tyre(3), "t.toml", no_file);
   const auto angles = sector_angles(spec);
   const double degree = std::numbers::pi / 180.0;
   ASSERT_EQ(angles.size(), 81u);
@@ -288,14 +288,14 @@ TEST(TyreModel, StepsSeatInflateTouchLoadAndRoll) {
 
 TEST(TyreModel, StaticsAloneHaveFourSteps) {
   std::string report;
-  const auto model = build_tyre(sample_with("[rolling]", "[rolling]\nenabled = false"), "t.toml", report);
+  const auto model = build_tyre(sample_with("[rolling]", "[rolling]\nenabled = false"), "t.toml", no_file, report);
   EXPECT_EQ(model.steps.size(), 4u);
   EXPECT_TRUE(model.initial_velocities.empty());
   EXPECT_NE(report.find("kg"), std::string::npos);
 }
 
 TEST(RoadProfile, IsConnectedAndStandsAtItsHeight) {
-  const auto spec = read_tyre_spec(sample_tyre(), "t.toml");
+  const auto spec = read_tyre_spec(sample_tyre(), "t.toml", no_file);
   const auto profile = road_profile(spec.road);
   ASSERT_EQ(profile.size(), 9u);
   double highest = 0.0;
@@ -337,7 +337,7 @@ TEST(RoadProfile, APotholeHasRampsAndRoundEdges) {
 }
 
 TEST(SectionPicture, DrawsEveryQuad) {
-  const auto spec = read_tyre_spec(sample_tyre(2), "t.toml");
+  const auto spec = read_tyre_spec(sample_tyre(2), "t.toml", no_file);
   const auto section = make_section(spec);
   const auto svg = section_svg(spec, section);
   std::size_t polygons = 0;
@@ -351,7 +351,7 @@ TEST(TyreRim, IsStruckWhereTheSpecSaysWhatLiesBetween) {
   auto text = sample_tyre(2);
   text.replace(text.find("flange_height = 15.5"), 20, "flange_height = 15.5\npad = 9.0");
   std::string report;
-  const auto model = build_tyre(text, "t.toml", report);
+  const auto model = build_tyre(text, "t.toml", no_file, report);
   ASSERT_EQ(model.contact_pairs.size(), 2u);
   EXPECT_EQ(model.steps.back().active_contact_pairs, (std::vector<std::int32_t>{0, 1}));
   EXPECT_EQ(model.steps.front().active_contact_pairs.size(), 0u);
