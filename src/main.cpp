@@ -208,10 +208,17 @@ int build_tyre_deck(const Command& command) {
   return completed;
 }
 
+/// A deck, or Nastran bulk data; none: no such file.
+std::optional<Model> read_mesh(const std::string& path) {
+  const auto text = file_loader()(path);
+  if (!text) return std::nullopt;
+  return std::filesystem::path(path).extension() == ".inp" ? read_deck(path, file_loader()).model : read_nastran(*text, path).model;
+}
+
 int build_car_deck(const Command& command) {
   const auto text = file_loader()(command.spec);
   if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of a car's description (TOML)", command.spec));
-  const auto car = build_car(*text, command.spec, file_loader(), command.car);
+  const auto car = build_car(*text, command.spec, {file_loader(), read_mesh}, command.car);
   const auto model = write_deck(car.tyres) + car.car;
   write_text(command.model_file, model + car.equilibrium);
   if (!command.drive_file.empty()) write_text(command.drive_file, model + car.drive);

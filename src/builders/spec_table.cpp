@@ -178,6 +178,11 @@ std::string SpecTable::text(std::string_view key, const std::vector<std::string>
   return "";
 }
 
+std::string SpecTable::path(std::string_view key) {
+  const auto name = text(key, {});
+  return name.empty() ? name : beside(value_->at(std::string(key)).location().file_name(), name);
+}
+
 std::vector<std::string> SpecTable::texts(std::string_view key) {
   std::vector<std::string> words;
   const auto* value = find(key, true);

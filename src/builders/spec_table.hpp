@@ -54,6 +54,8 @@ class SpecTable {
   bool boolean(std::string_view key, std::optional<bool> fallback = {});
   std::string text(std::string_view key, const std::vector<std::string>& choices,
                    std::optional<std::string> fallback = {});
+  /// A file that the description names, from the folder of the description in which it stands.
+  std::string path(std::string_view key);
   std::vector<std::string> texts(std::string_view key);
   /// Rows of numbers; each row has `least` to `most` of them.
   std::vector<std::vector<double>> rows(std::string_view key, std::size_t least, std::size_t most);

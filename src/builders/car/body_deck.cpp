@@ -20,7 +20,7 @@ const GaugeSpec& gauge_of(const CarSpec& spec, const Part& part) {
   const auto found = spec.gauges.find(part.gauge);
   if (found == spec.gauges.end())
     throw InputError(
-        fmt::format("{}:1: error: [gauge] {}: this part has no gauge; add it to the parts of one", spec.file_name, part.gauge));
+        fmt::format("{}: error: [gauge] {}: this part has no gauge; add it to the parts of one", spec.gauges_where, part.gauge));
   return found->second;
 }
 
@@ -63,9 +63,9 @@ void write_mount(const CarSpec& spec, const BodyMesh& mesh, const MountSpec& mou
   std::erase_if(carriers, [&](int node) { return taken.contains(node); });
   if (carriers.size() < 3)
     throw InputError(
-        fmt::format("{}:1: error: [{}.{}] reach: {} free nodes of its parts lie within {:g} mm of it, and three are needed; reach "
+        fmt::format("{}: error: [{}.{}] reach: {} free nodes of its parts lie within {:g} mm of it, and three are needed; reach "
                     "farther, or name more parts",
-                    spec.file_name, mount.mass > 0.0 ? "mass" : "mount", mount.name, carriers.size(), mount.reach));
+                    mount.where, mount.mass > 0.0 ? "mass" : "mount", mount.name, carriers.size(), mount.reach));
   taken.insert(carriers.begin(), carriers.end());
   const auto name = upper(mount.name);
   const auto node = deck.named_node(name, mount.place);
@@ -87,10 +87,13 @@ void Inertia::add_box(double mass, const Vector& place, const std::array<double,
 }
 
 std::array<double, 3> Inertia::about_centre() const {
-  const auto at = centre();
-  std::array<double, 3> central{};
-  for (int c = 0; c < 3; ++c) central[c] = squares_[c] - mass_ * at[c] * at[c];
-  return {central[1] + central[2], central[2] + central[0], central[0] + central[1]};
+  return about(centre());
+}
+
+std::array<double, 3> Inertia::about(const Vector& place) const {
+  std::array<double, 3> squares{};
+  for (int c = 0; c < 3; ++c) squares[c] = squares_[c] - mass_ * place[c] * place[c];
+  return {squares[1] + squares[2], squares[2] + squares[0], squares[0] + squares[1]};
 }
 
 std::array<double, 3> box_inertia(double mass, const std::array<double, 3>& size) {

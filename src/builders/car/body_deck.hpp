@@ -17,8 +17,10 @@ class Inertia {
   Vector centre() const { return (1.0 / mass_) * moment_; }
   /// About axes through the centre: roll (x), pitch (y), yaw (z), g mm2.
   std::array<double, 3> about_centre() const;
+  std::array<double, 3> about_origin() const { return about({}); }
 
  private:
+  std::array<double, 3> about(const Vector& place) const;
   double mass_ = 0.0;
   Vector moment_;
   std::array<double, 3> squares_{};  // sums of m x^2, m y^2, m z^2

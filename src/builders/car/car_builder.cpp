@@ -8,6 +8,7 @@
 #include "builders/car/car_steps.hpp"
 #include "builders/car/chassis_shells.hpp"
 #include "builders/car/suspension.hpp"
+#include "builders/car/wheels.hpp"
 #include "builders/rim_profile.hpp"
 #include "model/diagnostics.hpp"
 
@@ -31,27 +32,13 @@ BodyMesh make_body(const CarSpec& spec, std::vector<WeldLine>& welds) {
   std::vector<std::string> faults;
   for (const auto& [first, second, places] : welds)
     if (places == 0)
-      faults.push_back(fmt::format("{}:1: error: [body]: {} and {} are to be welded but meet nowhere; move one of them",
-                                   spec.file_name, first, second));
+      faults.push_back(fmt::format("{}: error: [body]: {} and {} are to be welded but meet nowhere; move one of them",
+                                   spec.body.where, first, second));
   for (const auto& part : faults.empty() ? mesh.loose_parts() : std::vector<std::string>{})
-    faults.push_back(fmt::format("{}:1: error: [body]: no chain of welds joins {} to the floor, or to its other half; move it",
-                                 spec.file_name, part));
+    faults.push_back(fmt::format("{}: error: [body]: no chain of welds joins {} to the floor, or to its other half; move it",
+                                 spec.body.where, part));
   if (!faults.empty()) throw InputError(faults);
   return mesh;
-}
-
-/// The wheels' hubs; tyres' beads join them when they are inflated, and may strike their rims where there are `rims`.
-void write_hubs(const CarSpec& spec, bool rims, DeckText& deck) {
-  deck.chapter("WHEELS: rim, hub and brake turn as one");
-  LinkageText linkage(deck);
-  const auto centres = wheel_centres(spec);
-  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
-    const auto& hub = wheel < 2 ? spec.chassis.front.hub : spec.chassis.rear.wheel_hub;
-    const std::string name = wheel_names[wheel];
-    linkage.rigid({.name = "HUB_" + name, .mass = hub.mass, .centre = centres[wheel], .size = hub.size,
-                   .surface = rims ? "RIM_" + name : ""},
-                  {});
-  }
 }
 
 /// A tyre under its load is flatter than free, but does not ride on its rim. @throws InputError otherwise.
@@ -68,13 +55,50 @@ void check_tyre(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& fact
     fault(fmt::format("at {:g} mm the rim's flange of {:.0f} mm radius is on the road; raise the wheels", height, flange));
 }
 
-std::string car_without_tyres(const CarSpec& spec, const BodyMesh& mesh, const CornerWeights& weights, bool rims) {
+/// Nothing that moves with the body may stand in a wheel at design height. @throws InputError otherwise.
+void check_room(const CarSpec& spec, const BodyMesh& mesh, const TyreFacts& facts) {
+  const auto centres = wheel_centres(spec);
+  for (const auto& part : mesh.parts()) {
+    if (part.assembly == "REAR_AXLE") continue;
+    for (int node = part.first_node; node < part.first_node + part.nodes; ++node)
+      for (std::size_t wheel = 0; wheel < centres.size(); ++wheel) {
+        const auto& place = mesh.nodes()[node];
+        const auto away = place - centres[wheel];
+        if (std::abs(away[1]) >= facts.half_width || std::hypot(away[0], away[2]) >= facts.outer_radius) continue;
+        const bool front = wheel < 2;
+        throw InputError(fmt::format("{}: error: [profile] {}: {} stands in the wheel {} at ({:.0f}, {:.0f}, {:.0f}), whose tyre is "
+                                     "{:.0f} mm wide and {:.0f} mm high; change the track, or move the part",
+                                     front ? spec.profile.front_track_where : spec.profile.rear_track_where,
+                                     front ? "front_track" : "rear_track", part.name, wheel_names[wheel], place[0], place[1], place[2],
+                                     2.0 * facts.half_width, 2.0 * facts.outer_radius));
+      }
+  }
+}
+
+/// The wheel of shells, if one is described.
+std::optional<WheelMesh> wheel_of(const CarSpec& spec, const TyreSpec& tyre, const CarFiles& files) {
+  const auto& wheel = spec.chassis.wheel;
+  if (wheel.mesh.empty()) return std::nullopt;
+  const auto model = files.mesh(wheel.mesh);
+  if (!model)
+    throw InputError(fmt::format("{}: error: [wheel] mesh: no file {}; give the path of a wheel's mesh from this file's folder",
+                                 wheel.where, wheel.mesh));
+  return make_wheel(wheel, tyre.rim, *model);
+}
+
+/// What a deck has of the wheels beside the hubs: nothing where the axles move alone.
+struct WheelParts {
+  std::optional<WheelMesh> mesh;
+  bool rims = false;  // that tyres may strike
+};
+
+std::string car_without_tyres(const CarSpec& spec, const BodyMesh& mesh, const CornerWeights& weights, const WheelParts& wheels) {
   DeckText deck;
   write_body(spec, mesh, deck);
   write_mounts(spec, mesh, deck);
   write_materials(spec, deck);
   write_fidelity(spec, mesh, deck);
-  write_hubs(spec, rims, deck);
+  write_wheels(spec, wheels.mesh, wheels.rims, deck);
   write_front_suspension(spec, mesh, weights, deck);
   write_rear_suspension(spec, mesh, weights, deck);
   write_engine(spec, deck);
@@ -83,16 +107,15 @@ std::string car_without_tyres(const CarSpec& spec, const BodyMesh& mesh, const C
 
 }  // namespace
 
-CarDeck build_car(const std::string& toml_text, const std::string& file_name, const FileText& load, const CarChoices& choices) {
-  const auto spec = read_car_spec(toml_text, file_name, load, choices);
+CarDeck build_car(const std::string& toml_text, const std::string& file_name, const CarFiles& files, const CarChoices& choices) {
+  const auto spec = read_car_spec(toml_text, file_name, files.text, choices);
   std::vector<WeldLine> welds;
   const auto mesh = make_body(spec, welds);
-  const auto tyre_file = beside(file_name, spec.tyre);
-  const auto tyre_text = load(tyre_file);
+  const auto tyre_text = files.text(spec.tyre);
   if (!tyre_text)
-    throw InputError(fmt::format("{}:1: error: tyre: no file {}; give the path of a tyre's description from this file's folder",
-                                 file_name, tyre_file));
-  const auto tyre = read_tyre_spec(*tyre_text, tyre_file, load);
+    throw InputError(fmt::format("{}: error: tyre: no file {}; give the path of a tyre's description from this file's folder",
+                                 spec.tyre_where, spec.tyre));
+  const auto tyre = read_tyre_spec(*tyre_text, spec.tyre, files.text);
 
   CarDeck car;
   car.tyres.heading =
@@ -103,17 +126,20 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
                                first_tyre_id, car.tyres);
 
   check_tyre(spec, tyre, facts);
+  check_room(spec, mesh, facts);
 
   const auto weights = corner_weights(spec, sprung_mass(spec, mesh));
-  car.car = car_without_tyres(spec, mesh, weights, strikes_rim(tyre));
+  const auto wheel = wheel_of(spec, tyre, files);
+  car.car = car_without_tyres(spec, mesh, weights, {.mesh = wheel, .rims = strikes_rim(tyre)});
   DeckText equilibrium, drive, kinematics;
   write_equilibrium(spec, tyre, facts, equilibrium);
   write_drive(spec, mesh, tyre, facts, wheel_loads(spec, weights, facts.mass), drive);
   write_kinematics(spec, kinematic_travel, kinematics);
   car.equilibrium = equilibrium.text();
-  car.kinematics = "*HEADING\n" + car.tyres.heading + "\n" + car_without_tyres(spec, mesh, weights, false) + kinematics.text();
+  car.kinematics = "*HEADING\n" + car.tyres.heading + "\n" + car_without_tyres(spec, mesh, weights, {}) + kinematics.text();
   car.drive = drive.text();
   car.report = car_report(spec, mesh, welds) +
+               (wheel ? wheel_report(spec, *wheel) : "") +
                fmt::format("  sprung weight on the springs of a front wheel {:.0f} N, of a rear wheel {:.0f} N\n", weights.front,
                            weights.rear);
   return car;

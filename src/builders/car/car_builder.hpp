@@ -17,9 +17,15 @@ struct CarDeck {
   std::string report;  // masses, inertias and dimensions
 };
 
-/// The car that `toml_text` describes, and its drive. `file_name` is named in messages; `load` reads the tyre's description and those
-/// that they are based on. Units mm, ms, g, N, MPa.
+/// What a car's description names: other descriptions, and a mesh of its wheel; none where there is no such file.
+struct CarFiles {
+  FileText text;
+  std::function<std::optional<Model>(const std::string& path)> mesh;
+};
+
+/// The car that `toml_text` describes, and its drive. `file_name` is named in messages. Units mm, ms, g, N, MPa.
 /// @throws InputError with every fault found: "FILE:LINE: error: [table] key: what is wrong; how to mend it".
-CarDeck build_car(const std::string& toml_text, const std::string& file_name, const FileText& load, const CarChoices& choices = {});
+CarDeck build_car(const std::string& toml_text, const std::string& file_name, const CarFiles& files,
+                  const CarChoices& choices = {});
 
 }  // namespace balocco

@@ -55,6 +55,8 @@ void read_profile(SpecTable& top, ProfileSpec& profile) {
   profile.rear_track = table.number("rear_track", Bounds::positive("mm"));
   profile.wheel_height = table.number("wheel_height", Bounds::positive("mm"));
   profile.wheel_height_where = table.where("wheel_height");
+  profile.front_track_where = table.where("front_track");
+  profile.rear_track_where = table.where("rear_track");
   profile.plan = read_graph(table, "plan");
   profile.section = read_graph(table, "section");
   profile.waist = read_graph(table, "waist");
@@ -66,16 +68,22 @@ void read_profile(SpecTable& top, ProfileSpec& profile) {
   profile.bumper_height = table.number("bumper_height", Bounds::positive("mm"));
   profile.hatch_sill = table.number("hatch_sill", Bounds::positive("mm"));
   profile.window_rear = table.number("window_rear", place_row);
-  const double wheel_outside = 0.5 * profile.front_track;
-  if (profile.plan(0.0) < wheel_outside)
-    table.fault("plan", fmt::format("the skin at the front axle is {:.0f} mm from the middle, inside the wheel's centre at {:.0f} "
-                                    "mm; widen the body or narrow the track",
-                                    profile.plan(0.0), wheel_outside));
+  struct Axle {
+    const char* name;
+    double x, track;
+  };
+  const Axle axles[]{{"front", 0.0, profile.front_track}, {"rear", -profile.wheelbase, profile.rear_track}};
+  for (const auto& [name, x, track] : axles)
+    if (profile.plan(x) < 0.5 * track)
+      table.fault("plan", fmt::format("the skin at the {} axle is {:.0f} mm from the middle, inside the wheel's centre at {:.0f} "
+                                      "mm; widen the body or narrow the track",
+                                      name, profile.plan(x), 0.5 * track));
   table.refuse_unknown();
 }
 
 void read_body(SpecTable& top, BodySpec& body) {
   auto table = top.table("body");
+  body.where = top.where("body");
   const std::pair<const char*, double*> lengths[]{{"floor_height", &body.floor_height},
                                                   {"floor_half_width", &body.floor_half_width},
                                                   {"tunnel_foot", &body.tunnel_foot},
@@ -138,7 +146,13 @@ void read_materials(SpecTable& top, CarSpec& spec) {
     material.modulus = table.number("modulus", Bounds::positive("MPa"));
     material.poisson = table.number("poisson", Bounds::between(0.0, 0.499, ""));
     material.density = table.number("density", Bounds::positive("g/mm3"));
-    for (const auto& row : table.rows("plastic", 2, 2)) material.plastic.push_back({row[0], row[1]});
+    for (const auto& row : table.rows("plastic", 2, 2)) {
+      if (!material.plastic.empty() && (row[0] < material.plastic.back()[0] || row[1] <= material.plastic.back()[1]))
+        table.fault("plastic",
+                    fmt::format("[{:g}, {:g}] follows [{:g}, {:g}]; list strains rising, with stresses that do not fall", row[0],
+                                row[1], material.plastic.back()[0], material.plastic.back()[1]));
+      material.plastic.push_back({row[0], row[1]});
+    }
     if (!material.plastic.empty() && material.plastic[0][1] != 0.0)
       table.fault("plastic", "the first plastic strain must be 0: the yield stress");
     material.rate_reference = table.number("rate_reference", Bounds::not_negative("1/ms"), 0.0);
@@ -151,6 +165,7 @@ void read_materials(SpecTable& top, CarSpec& spec) {
 
 void read_gauges(SpecTable& top, CarSpec& spec) {
   auto all = top.table("gauge");
+  spec.gauges_where = top.where("gauge");
   for (const auto& name : all.table_names()) {
     auto table = all.table(name);
     GaugeSpec gauge{.thickness = table.number("thickness", Bounds::positive("mm")), .material = table.text("material", {})};
@@ -184,14 +199,20 @@ void check_mounts(SpecTable& top, const CarSpec& spec) {
     return found == spec.mounts.end() ? std::nullopt : std::optional(found->place);
   };
   const auto fault = [&](const char* name, const std::string& words) { mounts.table(name).fault("place", words); };
+  const auto& rear = spec.chassis.rear;
   if (const auto pivot = place_of("axle_pivot"); pivot && (*pivot)[0] <= -spec.profile.wheelbase)
     fault("axle_pivot", fmt::format("the arm's pivot does not lie ahead of the rear wheels at x = {:g}; move it forward",
                                     -spec.profile.wheelbase));
+  else if (pivot && rear.spring_seat[0] >= (*pivot)[0])
+    top.table("rear").fault("spring_seat",
+                            fmt::format("it does not lie behind the arm's pivot at x = {:g}; move it backwards", (*pivot)[0]));
   if (const auto top_mount = place_of("strut_mount_front"); top_mount && length(*top_mount - spec.body.strut_top) > 1.0)
     fault("strut_mount_front", fmt::format("it lies {:.0f} mm from [body] strut_top, where the strut ends; give both one place",
                                            length(*top_mount - spec.body.strut_top)));
-  if (const auto seat = place_of("spring_seat_rear"); seat && (*seat)[2] <= spec.chassis.rear.spring_seat[2])
+  if (const auto seat = place_of("spring_seat_rear"); seat && (*seat)[2] <= rear.spring_seat[2])
     fault("spring_seat_rear", "it lies below the arm's [rear] spring_seat: the spring has no room; raise it");
+  if (const auto damper = place_of("damper_mount_rear"); damper && (*damper)[2] <= rear.damper_lower[2])
+    fault("damper_mount_rear", "it lies below the arm's [rear] damper_lower: the damper has no room; raise it");
 }
 
 std::vector<MountSpec> read_mounts(SpecTable& top, const char* kind, bool heavy) {
@@ -204,10 +225,13 @@ std::vector<MountSpec> read_mounts(SpecTable& top, const char* kind, bool heavy)
       mount.mass = table.number("mass", Bounds::positive("g"));
       const auto size = read_place(table, "size");
       mount.size = {size[0], size[1], size[2]};
+      if (table.has("size") && std::ranges::min(mount.size) <= 0.0)
+        table.fault("size", "a box with a side of 0 mm has no inertia; give it three sides > 0 mm");
     }
     mount.place = read_place(table, "place");
     mount.parts = table.texts("parts");
     mount.reach = table.number("reach", Bounds::positive("mm"));
+    mount.where = table.where("reach");
     mount.both_sides = table.boolean("both_sides", false);
     table.refuse_unknown();
     mounts.push_back(std::move(mount));
@@ -236,7 +260,8 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   spec.title = top.text("title", {}, "Car");
   spec.fidelity = top.text("fidelity", {"complete", "semi-flexible", "rigid"});
   if (!choices.fidelity.empty()) spec.fidelity = choices.fidelity;
-  spec.tyre = top.text("tyre", {});
+  spec.tyre = top.path("tyre");
+  spec.tyre_where = top.where("tyre");
   spec.mesh_size = top.number("mesh_size", Bounds::between(3.0, 200.0, "mm"));
   spec.weld_pitch = top.number("weld_pitch", Bounds::positive("mm"));
   read_profile(top, spec.profile);
@@ -246,7 +271,10 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   read_gauges(top, spec);
   spec.masses = read_mounts(top, "mass", true);
   spec.mounts = read_mounts(top, "mount", false);
-  ChassisPlace place{.materials = {}, .strut_top = spec.body.strut_top, .wheel_height = spec.profile.wheel_height};
+  ChassisPlace place{.materials = {},
+                     .strut_top = spec.body.strut_top,
+                     .wheel_height = spec.profile.wheel_height,
+                     .front_track = spec.profile.front_track};
   for (const auto& material : spec.materials) place.materials.push_back(material.name);
   read_chassis(top, {choices.obstacle, spec.fidelity}, place, spec.chassis);
   check_mounts(top, spec);

@@ -41,12 +41,13 @@ struct MountSpec {
   std::vector<std::string> parts;  // that carry it
   double reach = 0.0;              // mm around the place within which they do
   bool both_sides = false;         // the same again on the other side
+  std::string where;               // its reach stands, for messages
 };
 
 /// The designer's lines.
 struct ProfileSpec {
   double wheelbase = 0.0, front_track = 0.0, rear_track = 0.0, wheel_height = 0.0;  // mm; height of the wheel centres
-  std::string wheel_height_where;  // it stands, for faults that the tyre brings to light
+  std::string wheel_height_where, front_track_where, rear_track_where;  // they stand, for faults that tyres and body bring to light
   Graph plan;      // half width of the car at its widest height against x
   Graph section;   // the same in parts of it against z
   Graph waist;     // z of the lower edge of the windows, and of the wings' upper one, against x
@@ -74,17 +75,19 @@ struct BodySpec {
   Vector strut_top;                // of the left one
   double tower_half_length = 0.0, tower_half_width = 0.0, tower_middle = 0.0, tower_dome = 0.0, tower_hole = 0.0;
   double radiator_x = 0.0, radiator_top = 0.0, radiator_bottom = 0.0;
+  std::string where;  // it is described, for messages
 };
 
 struct CarSpec {
   std::string file_name, title;
   std::string fidelity;  // complete, semi-flexible or rigid
-  std::string tyre;      // path of the tyre's description, from the car's
+  std::string tyre, tyre_where;  // path of the tyre's description, and where it stands for messages
   double mesh_size = 0.0, weld_pitch = 0.0;  // mm
   ProfileSpec profile;
   BodySpec body;
   std::map<std::string, MemberSpec> members;
   std::map<std::string, GaugeSpec> gauges;  // by part, without its side
+  std::string gauges_where;                 // they stand, for messages
   std::vector<SheetMaterial> materials;
   std::vector<MountSpec> masses, mounts;
   ChassisSpec chassis;

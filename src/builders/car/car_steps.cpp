@@ -4,6 +4,7 @@
 #include <set>
 
 #include "builders/car/rail_sections.hpp"
+#include "builders/car/wheels.hpp"
 #include "builders/rim_profile.hpp"
 #include "builders/tyre_steps.hpp"
 
@@ -64,6 +65,17 @@ void write_parts_history(const CarSpec& spec, const BodyMesh& mesh, DeckText& de
   for (const auto& part : parts) deck.line("*EL PRINT, ELSET={}, TOTALS=ONLY, TIME POINTS=FRAMES\nELSE, ELKE", part);
 }
 
+/// Shells of wheels are thick for their size, and turn: made denser as the tyre's they would be flywheels. They have an increment
+/// of their own.
+void write_wheels_density(const WheelSpec& wheel, DeckText& deck) {
+  for (const auto* name : wheel_names) {
+    if (wheel.stable_increment > 0.0)
+      deck.line("*FIXED MASS SCALING, ELSET=RIM_AND_DISC_{}, TYPE=BELOW MIN, DT={:g}", name, wheel.stable_increment);
+    else
+      deck.line("*FIXED MASS SCALING, ELSET=RIM_AND_DISC_{}, FACTOR=1.", name);
+  }
+}
+
 /// Writes the steps of the equilibrium; each says all that acts in it.
 class StepText {
  public:
@@ -91,7 +103,7 @@ class StepText {
     begin("INFLATE", 0.1, 0.25);
     for (const auto* wheel : wheel_names)
       for (const auto* side : {"LEFT", "RIGHT"})
-        deck_.line("*RIGID BODY, REF NODE=HUB_{}, TIE NSET=BEAD_{}_{}", wheel, side, wheel);
+        deck_.line("*RIGID BODY, REF NODE={}, TIE NSET=BEAD_{}_{}", bead_carrier(spec_, wheel), side, wheel);
     deck_.line("*BOUNDARY, OP=NEW");
     hold_hubs(1, 6);
     hold_roads(0.0);
@@ -227,9 +239,11 @@ void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre
   const auto& drive = spec.chassis.drive;
   deck.chapter("DRIVE: the roads run, the car is free");
   const auto centres = wheel_centres(spec);
+  const bool has_shells = !spec.chassis.wheel.mesh.empty();
   for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
     const auto& at = centres[wheel];
     deck.line("*NSET, NSET=WHEEL_{}\nTYRE_{}, HUB_{}", wheel_names[wheel], wheel_names[wheel], wheel_names[wheel]);
+    if (has_shells) deck.line("RIM_AND_DISC_{}, SEATS_{}", wheel_names[wheel], wheel_names[wheel]);
     const double radius = rolling_radius(tyre, facts.outer_radius, wheel < 2 ? loads.front : loads.rear);
     deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.", wheel_names[wheel],
               drive.speed / radius);
@@ -240,6 +254,7 @@ void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre
   deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}",
             tyre.rolling.scale_factor, drive.duration, tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
   if (drive.stable_increment > 0.0) deck.line("*FIXED MASS SCALING, TYPE=BELOW MIN, DT={:g}", drive.stable_increment);
+  if (has_shells) write_wheels_density(spec.chassis.wheel, deck);
   deck.line("*MODEL CHANGE, TYPE=CONTACT PAIR, ADD");
   write_road_pairs(deck);
   write_rim_pairs(tyre, deck);

@@ -11,7 +11,7 @@ namespace balocco::car {
 void LinkageText::rigid(const RigidPart& part, const std::vector<std::int64_t>& points) {
   const auto& name = part.name;
   const auto node = deck_.named_node(name, part.centre);
-  write_mass(name, node, part.mass, part.size, deck_);
+  if (part.mass > 0.0) write_mass(name, node, part.mass, part.size, deck_);
   const auto surface = part.surface.empty() ? std::string() : fmt::format(", ANALYTICAL SURFACE={}", part.surface);
   if (points.empty()) return deck_.line("*RIGID BODY, REF NODE={}{}", node, surface);
   deck_.line("*NSET, NSET=P_{}", name);

@@ -11,7 +11,7 @@ namespace balocco::car {
 /// A rigid part, its inertia that of a uniform box.
 struct RigidPart {
   std::string name;
-  double mass = 0.0;             // g
+  double mass = 0.0;             // g; 0: what it carries has masses of its own
   Vector centre;                 // of gravity
   std::array<double, 3> size{};  // of the box, mm
   std::string surface;           // analytical surface that it carries; may be empty

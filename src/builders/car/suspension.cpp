@@ -111,9 +111,9 @@ void write_subframe(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   }
   for (const auto& seat : seats) {
     if (seat.carriers.size() < 3)
-      throw InputError(fmt::format("{}:1: error: [front.subframe] reach: {} nodes of its sheet carry {}, and three are needed; "
+      throw InputError(fmt::format("{}: error: [front.subframe] reach: {} nodes of its sheet carry {}, and three are needed; "
                                    "reach farther, or lead its line nearer",
-                                   spec.file_name, seat.carriers.size(), seat.name));
+                                   front.subframe.where, seat.carriers.size(), seat.name));
     const auto node = deck.named_node(seat.name, seat.place);
     write_coupling(seat.name, node, seat.carriers, deck);
     write_mass(seat.name, node, front.subframe.seat_mass, size_of_seat, deck);
@@ -182,7 +182,8 @@ CornerWeights corner_weights(const CarSpec& spec, const Inertia& sprung) {
 }
 
 CornerWeights wheel_loads(const CarSpec& spec, const CornerWeights& sprung, double tyre_mass) {
-  const auto& [front, rear, engine, road, drive] = spec.chassis;
+  const auto& front = spec.chassis.front;
+  const auto& rear = spec.chassis.rear;
   return {.front = sprung.front + gravity * (front.arm.mass + front.knuckle.mass + front.hub.mass + tyre_mass),
           .rear = sprung.rear + gravity * (rear.arm.mass + rear.wheel_hub.mass + tyre_mass)};
 }

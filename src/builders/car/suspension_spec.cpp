@@ -26,6 +26,8 @@ RigidPart read_part(SpecTable& parent, std::string_view key) {
   part.centre = read_place(table, "centre");
   const auto size = read_place(table, "size");
   part.size = {size[0], size[1], size[2]};
+  if (table.has("size") && std::ranges::min(part.size) <= 0.0)
+    table.fault("size", "a box with a side of 0 mm has no inertia; give it three sides > 0 mm");
   table.refuse_unknown();
   return part;
 }
@@ -36,6 +38,9 @@ std::vector<std::array<double, 2>> read_curve(SpecTable& table, std::string_view
   for (const auto& row : table.rows(key, 2, 2)) {
     if (!curve.empty() && row[0] <= curve.back()[0])
       table.fault(key, fmt::format("{:g} follows {:g}; list the rows in rising order", row[0], curve.back()[0]));
+    else if (!curve.empty() && row[1] < curve.back()[1])
+      table.fault(key, fmt::format("its force falls from {:g} to {:g} N, and what falls drives; let it rise", curve.back()[1],
+                                   row[1]));
     curve.push_back({row[0], row[1]});
   }
   if (!curve.empty() && (curve[0][0] != 0.0 || curve[0][1] != 0.0))
@@ -84,8 +89,18 @@ std::vector<Vector> read_half(SpecTable& table, std::string_view key, std::size_
   return line;
 }
 
-/// What cannot be put together as described: arms and rods that reach inwards, struts shorter than their travel.
-void check_front(SpecTable& table, const FrontSpec& front, const Vector& strut_top, double wheel_height) {
+/// What cannot be put together as described: arms and rods that reach inwards or through the wheel, struts shorter than their
+/// travel.
+void check_front(SpecTable& table, const FrontSpec& front, const ChassisPlace& place_of) {
+  const auto& [materials, strut_top, wheel_height, track] = place_of;
+  const std::pair<const char*, Vector> within[]{
+      {"ball_joint", front.ball_joint}, {"strut_lower", front.strut_lower}, {"rod_outer", front.rod_outer}};
+  for (const auto& [key, point] : within)
+    if (point[1] >= 0.5 * track)
+      table.fault(key, fmt::format("at y = {:g} mm it lies beyond the wheel's middle at {:g} mm; move it inwards", point[1],
+                                   0.5 * track));
+  if (front.ball_joint[2] >= front.strut_lower[2])
+    table.fault("ball_joint", "it lies no lower than strut_lower, but the knuckle stands on it; lower it");
   if (front.arm_front[0] <= front.arm_rear[0])
     table.fault("arm_front", "it lies behind arm_rear; give the front bushing the larger x");
   if (front.ball_joint[1] <= std::max(front.arm_front[1], front.arm_rear[1]))
@@ -121,6 +136,7 @@ void read_front(SpecTable& top, const ChassisPlace& place_of, FrontSpec& front) 
   auto subframe = table.table("subframe");
   front.subframe.line = read_half(subframe, "line", 4, true);
   front.subframe.reach = subframe.number("reach", Bounds::positive("mm"));
+  front.subframe.where = subframe.where("reach");
   front.subframe.seat_mass = subframe.number("seat_mass", Bounds::positive("g"));
   subframe.refuse_unknown();
   read_bar(table, place_of.materials, front.bar);
@@ -132,7 +148,7 @@ void read_front(SpecTable& top, const ChassisPlace& place_of, FrontSpec& front) 
   front.arm_bush = read_bushing(table, "arm_bush");
   front.top_mount = read_bushing(table, "top_mount");
   front.subframe_mount = read_bushing(table, "subframe_mount");
-  if (table.has("strut_lower")) check_front(table, front, place_of.strut_top, place_of.wheel_height);
+  if (table.has("strut_lower")) check_front(table, front, place_of);
   table.refuse_unknown();
 }
 
@@ -152,10 +168,27 @@ void read_rear(SpecTable& top, RearSpec& rear) {
   table.refuse_unknown();
 }
 
+void read_wheel(SpecTable& top, const ChassisPlace& place, WheelSpec& wheel) {
+  if (!top.has("wheel")) return;
+  auto table = top.table("wheel");
+  wheel.mesh = table.path("mesh");
+  wheel.where = table.where("mesh");
+  wheel.seat_diameter = table.number("seat_diameter", Bounds::positive("mm"));
+  wheel.width = table.number("width", Bounds::positive("mm"));
+  wheel.seat_width = table.number("seat_width", Bounds::positive("mm"));
+  wheel.mounting_diameter = table.number("mounting_diameter", Bounds::positive("mm"));
+  wheel.material = table.text("material", place.materials);
+  wheel.stable_increment = table.number("stable_increment", Bounds::not_negative("ms"), 0.0);
+  table.refuse_unknown();
+}
+
 void read_engine(SpecTable& top, EngineSpec& engine) {
   auto table = top.table("engine");
   engine.block = read_part(table, "block");
-  for (const auto& row : table.rows("rates", 3, 3)) engine.rates.push_back({row[0], row[1], row[2]});
+  for (const auto& row : table.rows("rates", 3, 3)) {
+    if (std::ranges::min(row) <= 0.0) table.fault("rates", "a mount does not carry along one of its axes; give rates > 0 N/mm");
+    engine.rates.push_back({row[0], row[1], row[2]});
+  }
   if (engine.rates.size() != 3 && table.has("rates")) table.fault("rates", "the engine hangs on three mounts; give three rows");
   engine.damping_time = table.number("damping_time", Bounds::not_negative("ms"));
   table.refuse_unknown();
@@ -184,6 +217,7 @@ void read_drive(SpecTable& top, const CarChoices& choices, DriveSpec& drive) {
 void read_chassis(SpecTable& top, const CarChoices& choices, const ChassisPlace& place, ChassisSpec& chassis) {
   read_front(top, place, chassis.front);
   read_rear(top, chassis.rear);
+  read_wheel(top, place, chassis.wheel);
   read_engine(top, chassis.engine);
   read_road(top, chassis.road);
   read_drive(top, choices, chassis.drive);

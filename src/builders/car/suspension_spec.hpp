@@ -34,6 +34,7 @@ struct SubframeSpec {
   std::vector<Vector> line;  // of the left half, where the flanges lie; in the car
   double reach = 0.0;        // mm around mounts, arms and rack within which its sheet carries them
   double seat_mass = 0.0;    // g, of the bracket and the bushing's sleeve at each of them
+  std::string where;         // the reach stands, for messages
 };
 
 /// A bar that resists roll, of the left half: from the middle by its bushing on the subframe to where its link hangs.
@@ -83,9 +84,20 @@ struct DriveSpec {
   int frames = 0;
 };
 
+/// A wheel that deforms between its hub and the rigid seats of the tyre's beads, in place of the rigid rim.
+struct WheelSpec {
+  std::string mesh;                                    // path of its shells, mm; empty: rims are rigid
+  double seat_diameter = 0.0, width = 0.0;             // mm, of the mesh's own rim: it is scaled to the tyre's
+  double seat_width = 0.0, mounting_diameter = 0.0;    // mm inside the flanges that carry a bead; of the hub's face; both scaled
+  std::string material;
+  double stable_increment = 0.0;                       // ms: its elements that allow less in the drive are made denser; 0: none are
+  std::string where;                                   // the mesh is named, for messages
+};
+
 struct ChassisSpec {
   FrontSpec front;
   RearSpec rear;
+  WheelSpec wheel;
   EngineSpec engine;
   RoadSpec road;
   DriveSpec drive;
@@ -96,6 +108,7 @@ struct ChassisPlace {
   std::vector<std::string> materials;  // names of those that the description has
   Vector strut_top;                    // of the left one
   double wheel_height = 0.0;           // mm
+  double front_track = 0.0;            // mm
 };
 
 /// `choices`: the fidelity of the car, and an obstacle that overrides the description's.

@@ -104,6 +104,7 @@ TyreFacts add_tyres(const TyreSpec& spec, const RoadSpec& road, const WheelPlace
   Model tyre;
   const auto mesh = add_tyre(spec, section, tyre);
   TyreFacts facts{.outer_radius = section.outer_radius(), .seat_shift = section.seat_shift};
+  for (const auto& node : section.nodes) facts.half_width = std::max(facts.half_width, node[1]);
   for (const auto& part : tyre_masses(spec, mesh, tyre)) facts.mass += part.mass;
   model.units = {"mm", "g", "ms"};
   model.materials = tyre.materials;

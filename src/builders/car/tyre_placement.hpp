@@ -19,7 +19,8 @@ struct WheelPlaces {
 
 /// What the rest of the car wants to know of the tyre.
 struct TyreFacts {
-  double outer_radius = 0.0, seat_shift = 0.0, mass = 0.0;  // mm, mm that each bead moves to the rim, g of one tyre
+  double outer_radius = 0.0, half_width = 0.0;  // mm
+  double seat_shift = 0.0, mass = 0.0;          // mm that each bead moves to the rim, g of one tyre
 };
 
 /// Adds to an empty model: element sets, node sets and surfaces of the tyre builder with _FRONT_LEFT and so on behind their names;

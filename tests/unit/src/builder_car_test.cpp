@@ -26,12 +26,14 @@ std::optional<std::string> load(const std::string& path) {
   return text.str();
 }
 
+const CarFiles files{load, [](const std::string&) { return std::nullopt; }};
+
 std::string main_spec() {
   return *load(BALOCCO_CAR_SPEC);
 }
 
 CarDeck built(const std::string& text) {
-  return build_car(text, BALOCCO_CAR_SPEC, load);
+  return build_car(text, BALOCCO_CAR_SPEC, files);
 }
 
 std::string changed(std::string text, const std::string& from, const std::string& to) {
@@ -203,12 +205,33 @@ TEST(CarSpec, WhatCannotBeAssembledIsToldWithLineAndCure) {
           "does not lie ahead of the rear wheels");
   is_told("place = [[-83.8, 499.5, 736.6]]", "place = [[-83.8, 449.5, 736.6]]", line_of("place = [[-83.8, 499.5"),
           "give both one place");
+  is_told("ball_joint = [[27.9, 612.0,", "ball_joint = [[27.9, 712.0,", line_of("ball_joint ="),
+          "beyond the wheel's middle at 692.5 mm");
+  is_told("ball_joint = [[27.9, 612.0, -104.1]]", "ball_joint = [[27.9, 612.0, 4.1]]", line_of("ball_joint ="),
+          "the knuckle stands on it");
+  is_told("spring_seat = [[-2440.0,", "spring_seat = [[-1440.0,", line_of("spring_seat ="), "does not lie behind the arm's pivot");
+  is_told("damper_lower = [[-2520.0, 560.0, 215.0]]", "damper_lower = [[-2520.0, 560.0, 915.0]]",
+          line_of("place = [[-2490.0"), "the damper has no room");
+  is_told("rear_track = 1365.0", "rear_track = 1700.0", line_of("plan ="), "the skin at the rear axle");
+  is_told("rear_track = 1365.0", "rear_track = 1100.0", line_of("rear_track ="), "stands in the wheel REAR_LEFT");
+  is_told("[0.05, 200.0], [0.13, 300.0]", "[0.05, 200.0], [0.13, 100.0]", line_of("damper_bump ="), "what falls drives");
+  is_told("size = [[420.0, 800.0, 450.0]]", "size = [[420.0, 0.0, 450.0]]", line_of("size = [[420.0"), "has no inertia");
+  is_told("rates = [[91.0, 200.0,", "rates = [[91.0, 0.0,", line_of("rates ="), "does not carry along one of its axes");
+  is_told("[[200.0, 0.0], [237.0,", "[[200.0, 0.0], [137.0,", line_of("plastic = [[200.0"), "stresses that do not fall");
   is_told("[mount.axle_pivot]", "[mount.axle_pivots]", line_of("[mount.strut_mount_front]"), "[mount] axle_pivot: missing");
   is_told("wheel_height = 268.0", "wheel_height = 298.0", line_of("wheel_height ="), "is not on the road");
   is_told("wheel_height = 268.0", "wheel_height = 178.0", line_of("wheel_height ="), "is on the road");
   const auto damper = main_spec().find("damper_bump");
   const auto curve = main_spec().substr(damper, main_spec().find('\n', damper) - damper);
   is_told(curve, "", line_of("[front.strut]"), "[front.strut] damper_bump: missing");
+}
+
+TEST(CarSpec, FilesAreNamedFromTheDescriptionInWhichTheyStand) {
+  const std::string base = BALOCCO_CAR_SPEC;
+  const auto spec = read_car_spec("base = \"" + base + "\"\nmesh_size = 100.0\n", "elsewhere/car.toml", load);
+  EXPECT_EQ(spec.tyre, base.substr(0, base.rfind('/')) + "/tyre.toml");
+  EXPECT_EQ(spec.mesh_size, 100.0);
+  EXPECT_EQ(read_car_spec("base = \"" + base + "\"\ntyre = \"t.toml\"\n", "elsewhere/car.toml", load).tyre, "elsewhere/t.toml");
 }
 
 TEST(CarSprings, CarryTheSprungWeightAtDesignHeight) {
@@ -246,7 +269,9 @@ TEST(CarTyres, AreFourAlikeAtTheirWheels) {
 }
 
 TEST(CarBuilder, SaysByOneWordWhatDeforms) {
-  const auto of = [](const char* fidelity) { return build_car(main_spec(), BALOCCO_CAR_SPEC, load, {.obstacle = "", .fidelity = fidelity}).car; };
+  const auto of = [](const char* fidelity) {
+    return build_car(main_spec(), BALOCCO_CAR_SPEC, files, {.obstacle = "", .fidelity = fidelity}).car;
+  };
   EXPECT_EQ(of("complete").find("*ELSET, ELSET=RIGID_BODY"), std::string::npos);
   const auto rigid = of("rigid"), some = of("semi-flexible");
   const auto list = [](const std::string& deck) {
@@ -285,7 +310,8 @@ TEST(CarBuilder, APotholeLiesBelowTheLeftWheelsAloneAndTheObstacleBelowBothSides
   const auto roads = [](const CarDeck& deck) {
     return std::pair(deck.tyres.contact_pairs[0].master, deck.tyres.contact_pairs[2].master);  // left, right
   };
-  const auto comfort = built(main_spec()), hole = build_car(main_spec(), BALOCCO_CAR_SPEC, load, {.obstacle = "pothole", .fidelity = ""});
+  const auto comfort = built(main_spec()),
+             hole = build_car(main_spec(), BALOCCO_CAR_SPEC, files, {.obstacle = "pothole", .fidelity = ""});
   const auto [left, right] = roads(comfort);
   EXPECT_EQ(extremes(comfort, left), (std::array<double, 2>{0.0, 25.0}));
   EXPECT_EQ(extremes(comfort, right), (std::array<double, 2>{0.0, 25.0}));
