@@ -285,7 +285,7 @@ TEST(CarBuilder, SaysByOneWordWhatDeforms) {
 
 TEST(CarBuilder, DriveTellsOfWhatDeforms) {
   const auto drive = [](const char* fidelity) {
-    return build_car(main_spec(), BALOCCO_CAR_SPEC, load, {.obstacle = "", .fidelity = fidelity}).drive;
+    return build_car(main_spec(), BALOCCO_CAR_SPEC, files, {.obstacle = "", .fidelity = fidelity}).drive;
   };
   const auto complete = drive("complete"), some = drive("semi-flexible"), rigid = drive("rigid");
   const auto tells = [](const std::string& deck, const char* words) { return deck.find(words) != std::string::npos; };
