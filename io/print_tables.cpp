@@ -348,6 +348,12 @@ void PrintTables::advance(const ResultSource& source, const Progress& progress) 
   write(text);
 }
 
+double PrintTables::next_due() const {
+  double next = 1e300;
+  for (const auto& request : requests_) next = std::min(next, request.schedule.next());
+  return next;
+}
+
 void PrintTables::add_mode(const Mode& mode) {
   modes_.push_back({.number = mode.number,
                     .eigenvalue = mode.eigenvalue,

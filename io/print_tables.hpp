@@ -27,8 +27,8 @@ class PrintTables {
   void start_step(const ResultSource& source, std::int32_t step);
   /// Prints what is due after an increment.
   void advance(const ResultSource& source, const Progress& progress);
-  /// Step time at which the tables next want to be asked: requests count increments.
-  double next_due() const { return requests_.empty() ? 1e300 : 0.0; }
+  /// Step time at which the tables next want to be asked.
+  double next_due() const;
   /// Modes are printed when their step has finished.
   void add_mode(const Mode& mode);
 

@@ -1,2 +1,2 @@
 # The tables of JOB.dat.
-verification_cases(print 120 tables section requests restart)
+verification_cases(print 120 tables section requests in_explicit_steps restart)

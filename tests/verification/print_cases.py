@@ -112,6 +112,20 @@ def requests(runner):
                 close(a, b, 1e-6, "coordinate of a point of element 2")
 
 
+def in_explicit_steps(runner):
+    """At time points the first increments from there on print their tables, and no other ones."""
+    deck = pulled("C3D8R")
+    deck.add("*INITIAL CONDITIONS, TYPE=VELOCITY\nTOP, 3, 0.2\n*TIME POINTS, NAME=T\n3e-4, 5e-4\n"
+             "*STEP\n*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n7e-5, 1e-3\n*NODE PRINT, NSET=TOP, TIME POINTS=T\nU\n*END STEP")
+    for ranks in (1, 2):
+        runner.run("in_explicit_steps", deck, ranks)
+        path = os.path.join(runner.folder, "in_explicit_steps_%d" % ranks, "in_explicit_steps.dat")
+        found = [(title, rows) for title, rows in blocks(path) if "displacements" in title]
+        for (title, rows), expected in zip(found, (3.5e-4, 5.6e-4, 1e-3), strict=True):
+            close(float(title.split()[-1]), expected, 1e-6, "time of a table")
+            assert len(rows) == 9 and all(0.0 < row[3] <= 0.2 * expected for row in rows), rows
+
+
 def restart(runner):
     """A run that is killed and goes on from its checkpoint leaves the same file as one that is not, to the round-off of statics."""
     deck = pulled("C3D8")
@@ -137,7 +151,7 @@ def restart(runner):
 
 def main():
     case, program, folder = sys.argv[1:4]
-    {"tables": tables, "section": section, "requests": requests, "restart": restart}[case](Runner(program, folder))
+    {"tables": tables, "section": section, "requests": requests, "in_explicit_steps": in_explicit_steps, "restart": restart}[case](Runner(program, folder))
 
 
 if __name__ == "__main__":
