@@ -65,7 +65,7 @@ class RigidClusters {
     double mass = 0.0, rotary = 0.0;
     Matrix3<double> inertia{};   // of the masses, about their centre, at the start
     Matrix3<double> mobility{};  // inverse of it and the rotary inertias
-    double average = 0.0;                   // increment of the last motion
+    double average = 0.0;        // increment of the last motion
   };
   /// Momenta about the centre of mass.
   struct Momenta {

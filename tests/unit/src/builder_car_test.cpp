@@ -2,10 +2,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <fstream>
 #include <map>
 #include <set>
-#include <sstream>
 
 #include "builders/car/body_parts.hpp"
 #include "builders/car/car_builder.hpp"
@@ -14,22 +12,15 @@
 #include "builders/car/suspension.hpp"
 #include "builders/car/tyre_placement.hpp"
 #include "model/diagnostics.hpp"
+#include "text_of_file.hpp"
 
 namespace balocco::car {
 namespace {
 
-std::optional<std::string> load(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return std::nullopt;
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
-const CarFiles files{load, [](const std::string&) { return std::nullopt; }};
+const CarFiles files{test::text_of_file, [](const std::string&) { return std::nullopt; }};
 
 std::string main_spec() {
-  return *load(BALOCCO_CAR_SPEC);
+  return *test::text_of_file(BALOCCO_CAR_SPEC);
 }
 
 CarDeck built(const std::string& text) {
@@ -133,7 +124,7 @@ TEST(CarRails, SectionGoesOnceAcrossTheirMiddle) {
 }
 
 TEST(CarSubframe, IsARingOfTwoWeldedHalvesAlikeOnBothSides) {
-  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, load);
+  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, test::text_of_file);
   BodyMesh mesh;
   add_subframe(spec, mesh);
   EXPECT_GT(mesh.weld("SUBFRAME_UPPER", "SUBFRAME_LOWER", 1.0, spec.weld_pitch), 40);
@@ -150,7 +141,7 @@ TEST(CarSubframe, IsARingOfTwoWeldedHalvesAlikeOnBothSides) {
 }
 
 TEST(CarTorsionBeam, EndsAtBothArmsWithTheSameNodes) {
-  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, load);
+  const auto spec = read_car_spec(main_spec(), BALOCCO_CAR_SPEC, test::text_of_file);
   BodyMesh mesh;
   add_torsion_beam(spec, mesh);
   const auto [left, right] = ends_of_torsion_beam(mesh);
@@ -228,14 +219,15 @@ TEST(CarSpec, WhatCannotBeAssembledIsToldWithLineAndCure) {
 
 TEST(CarSpec, FilesAreNamedFromTheDescriptionInWhichTheyStand) {
   const std::string base = BALOCCO_CAR_SPEC;
-  const auto spec = read_car_spec("base = \"" + base + "\"\nmesh_size = 100.0\n", "elsewhere/car.toml", load);
+  const auto spec = read_car_spec("base = \"" + base + "\"\nmesh_size = 100.0\n", "elsewhere/car.toml", test::text_of_file);
   EXPECT_EQ(spec.tyre, base.substr(0, base.rfind('/')) + "/tyre.toml");
   EXPECT_EQ(spec.mesh_size, 100.0);
-  EXPECT_EQ(read_car_spec("base = \"" + base + "\"\ntyre = \"t.toml\"\n", "elsewhere/car.toml", load).tyre, "elsewhere/t.toml");
+  const auto other_tyre = "base = \"" + base + "\"\ntyre = \"t.toml\"\n";
+  EXPECT_EQ(read_car_spec(other_tyre, "elsewhere/car.toml", test::text_of_file).tyre, "elsewhere/t.toml");
 }
 
 TEST(CarSprings, CarryTheSprungWeightAtDesignHeight) {
-  const auto spec = read_car_spec(main_spec(), "car.toml", load);
+  const auto spec = read_car_spec(main_spec(), "car.toml", test::text_of_file);
   BodyMesh mesh;
   const auto sprung = sprung_mass(spec, mesh);
   const auto weights = corner_weights(spec, sprung);

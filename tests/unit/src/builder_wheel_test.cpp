@@ -4,14 +4,13 @@
 
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <sstream>
 
 #include "builders/car/car_builder.hpp"
 #include "builders/car/wheel_mesh.hpp"
 #include "builders/tyre_mesh.hpp"
 #include "model/diagnostics.hpp"
+#include "text_of_file.hpp"
 
 namespace balocco::car {
 namespace {
@@ -131,18 +130,10 @@ TEST(CarWheel, RefusesWhatIsNoSuchWheel) {
             std::string::npos);
 }
 
-std::optional<std::string> load(const std::string& path) {
-  std::ifstream file(path);
-  if (!file) return std::nullopt;
-  std::stringstream text;
-  text << file.rdbuf();
-  return text.str();
-}
-
 CarDeck car_with_wheels(const std::string& change = "") {
   const CarFiles files{
-      load, [](const std::string& path) { return path.ends_with("wheel.bdf") ? std::optional(mesh_of_wheel()) : std::nullopt; }};
-  auto text = *load(BALOCCO_CAR_SPEC) +
+      test::text_of_file, [](const std::string& path) { return path.ends_with("wheel.bdf") ? std::optional(mesh_of_wheel()) : std::nullopt; }};
+  auto text = *test::text_of_file(BALOCCO_CAR_SPEC) +
               "[wheel]\nmesh = \"wheel.bdf\"\nseat_diameter = 330.2\nwidth = 127.0\nseat_width = 20.0\nmounting_diameter = 140.0\n"
               "material = \"mild\"\n";
   const std::string from = "mass = 13000.0";
