@@ -27,6 +27,18 @@ Four vector_part() {
 
 }  // namespace
 
+std::vector<NodeRun> find_runs(std::int32_t size, const std::function<bool(std::int32_t)>& chosen) {
+  std::vector<NodeRun> runs;
+  bool goes_on = false;
+  for (std::int32_t node = 0; node < size; ++node) {
+    const bool is_chosen = chosen(node);
+    if (is_chosen && !goes_on) runs.push_back({static_cast<std::size_t>(node), 0});
+    if (is_chosen) ++runs.back().count;
+    goes_on = is_chosen;
+  }
+  return runs;
+}
+
 void clear_vectors(std::span<double> nodal) {
   for (std::size_t i = 0; i < nodal.size(); i += 4) nodal[i] = nodal[i + 1] = nodal[i + 2] = 0.0;
 }

@@ -1,10 +1,25 @@
-// Passes over all nodes of a rank in the explicit loop: contiguous, without branches, four doubles at a time.
+// Passes over the nodes of a rank in the explicit loop: contiguous, without branches, four doubles at a time.
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <span>
+#include <vector>
 
 namespace balocco {
+
+/// Local nodes with consecutive numbers.
+struct NodeRun {
+  std::size_t first = 0, count = 0;
+
+  /// Their part of what has `width` values a node.
+  template <std::size_t width = 4>
+  std::span<double> of(std::vector<double>& nodal) const {
+    return std::span(nodal).subspan(width * first, width * count);
+  }
+};
+/// Of the nodes [0, size) those that are `chosen`.
+std::vector<NodeRun> find_runs(std::int32_t size, const std::function<bool(std::int32_t)>& chosen);
 
 /// Zeroes the vectors, of all nodes or of some, and leaves the fourth slots alone.
 void clear_vectors(std::span<double> nodal);

@@ -9,33 +9,9 @@
 #include "explicit_folding.hpp"
 #include "explicit_nodes.hpp"
 #include "explicit_step.hpp"
-#include "math/exact_sum.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
-
-namespace {
-
-double length(const double* vector) { return std::sqrt(vector[0] * vector[0] + vector[1] * vector[1] + vector[2] * vector[2]); }
-
-/// What the rounding of positions makes of the work of forces, and of speeds: below it energies mean nothing. Collective.
-/// @param external forces on nodes, 4 a node, or none
-double energy_of_rounding(const Analysis& analysis, const std::vector<double>& external, double weight_of_bodies) {
-  constexpr double rounding = 4096.0 * std::numeric_limits<double>::epsilon();  // of the farthest place
-  double farthest = 0.0;
-  for (const auto& place : analysis.model.nodes.coordinates) farthest = std::max(farthest, length(place.data()));
-  std::array<ExactSum, 2> sums;  // mass, magnitudes of forces
-  for (std::int32_t node = 0; node < analysis.domain.size(); ++node) {
-    if (!analysis.domain.owned[node]) continue;
-    sums[0].add(analysis.scaled_inertia().mass[node]);
-    if (!external.empty()) sums[1].add(length(&external[4 * static_cast<std::size_t>(node)]));
-  }
-  analysis.communicator.sum(std::span<ExactSum>(sums));
-  const double way = rounding * farthest, speed = way / analysis.output_increment;
-  return way * (sums[1].value() + weight_of_bodies) + 0.5 * sums[0].value() * speed * speed;
-}
-
-}  // namespace
 
 void ExplicitStep::fill_output() {
   timers.measure(Phase::output, [&] {
@@ -74,7 +50,7 @@ Progress ExplicitStep::progress() const {
   progress.largest_penetration = contact_.largest_penetration(analysis_);
   progress.deleted_elements = analysis_.communicator.sum(failures_.count(analysis_.current.element_history));
   progress.added_mass = mass_scaling_.added_part();
-  progress.negligible_energy = energy_of_rounding(analysis_, external_force_, std::sqrt(bodies_.balance().gravity));
+  progress.negligible_energy = negligible_energy_;
   progress.step_finished = finished();
   return progress;
 }
@@ -90,10 +66,10 @@ bool ExplicitStep::observe() {
   const bool landing = lands();
   if (!is_observed()) return true;
   fill_output();
-  watch_folding();
+  const bool regular = analysis_.current.increment % regular_increments == 0;
+  if (regular || finished()) watch_folding();
   report_failure();
-  if (analysis_.current.increment % regular_increments == 0 || landing || (finished() && !checked_before_landing_))
-    check_energy_balance();
+  if (regular || landing || (finished() && !checked_before_landing_)) check_energy_balance();
   checked_before_landing_ = checked_before_landing_ || landing;
   if (!attention_ && !finished()) return true;
   contact_.report_past_end(analysis_, observer_);
@@ -167,7 +143,12 @@ void ExplicitStep::tell_first(bool& told, const std::optional<FoldedCorner>& fou
   observer_.log(text(analysis_.communicator.minimum(Communicator::Located{static_cast<double>(id), id}).payload));
 }
 
+void ExplicitStep::find_negligible_energy() {
+  negligible_energy_ = rounding_energy_.value(analysis_, external_force_, loaded_nodes_, std::sqrt(bodies_.balance().gravity));
+}
+
 void ExplicitStep::start_energy_balance() {
+  find_negligible_energy();
   const auto energies = analysis_.energies();
   analysis_.current.energy_at_start = energies.total;
   analysis_.current.largest_energy = energies.magnitude();
@@ -178,12 +159,13 @@ void ExplicitStep::start_energy_balance() {
 void ExplicitStep::check_energy_balance() {
   auto& state = analysis_.current;
   EnergyBalance energies;
-  timers.measure(Phase::output, [&] { energies = analysis_.energies(); });
+  timers.measure(Phase::output, [&] {
+    energies = analysis_.energies();
+    find_negligible_energy();
+  });
   state.largest_energy = std::max(state.largest_energy, energies.magnitude());
   const double created = energies.total - energies.viscous - energies.friction - state.energy_at_start;
-  if (created <= procedure_.energy_error_limit * state.largest_energy ||
-      created <= energy_of_rounding(analysis_, external_force_, std::sqrt(bodies_.balance().gravity)))
-    return;
+  if (created <= procedure_.energy_error_limit * state.largest_energy || created <= negligible_energy_) return;
   throw AnalysisError(fmt::format(
       "step {}, increment {}, time {:.6g}: the energy balance is lost: {:.4g} has been created, {:.3g} % of the largest "
       "energy of the step ({:.4g}; kinetic {:.4g}, internal {:.4g}, work {:.4g}); reduce the time increment (SCALE "

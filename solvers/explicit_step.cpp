@@ -92,7 +92,8 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       scale_(force_scale(analysis, step, restraints_)),
       control_(step),
       contact_(analysis, step, constraints_, bodies_, inverse_.mass),
-      moments_(analysis.model.rigid_bodies.size()) {
+      moments_(analysis.model.rigid_bodies.size()),
+      rounding_energy_(analysis) {
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
   force_.assign(4 * (nodes + 1), 0.0);
   if (analysis.domain.turning > 0) moment_.assign(force_.size(), 0.0);
@@ -111,7 +112,9 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
   constexpr int most_passes = 4;  // masses change what is added to them
   for (int pass = 0; starts_afresh() && pass < most_passes && mass_scaling_.allow_for_added_bounds(analysis); ++pass) renew_inertia();
   find_loaded_nodes();
-  bodies_.rest_nodes(uses_of_nodes());
+  const auto uses = uses_of_nodes();
+  bodies_.rest_nodes(uses);
+  list_acting_nodes(uses);
   list_drifting_nodes();
   if (has_loads_) {
     external_force_ = force_;
@@ -159,11 +162,9 @@ void ExplicitStep::advance_positions() {
   auto& state = analysis_.current;
   const double increment = state.time_increment;
   timers.measure(Phase::update, [&] {
-    if (!nodes_are_ahead_) drift(state.position, state.velocity, increment);
-    for (const auto& [first, count] : drifting_) {
-      const auto run = [&, first = first, count = count](std::vector<double>& nodal) { return std::span(nodal).subspan(4 * first, 4 * count); };
-      drift_rotations(run(state.orientation), run(state.rotation), run(state.angular_velocity), increment);
-    }
+    if (!nodes_are_ahead_)
+      for (const auto run : acting_) drift(run.of(state.position), run.of(state.velocity), increment);
+    for (const auto run : drifting_) drift_rotations(run.of(state.orientation), run.of(state.rotation), run.of(state.angular_velocity), increment);
   });
   timers.measure(Phase::bodies, [&] { bodies_.advance(analysis_, increment); });
   const double previous_time = state.step_time;
@@ -178,9 +179,11 @@ void ExplicitStep::advance_positions() {
 void ExplicitStep::begin_external_loads() {
   const auto& state = analysis_.current;
   timers.measure(Phase::loads, [&] {
-    clear_vectors(nodes_are_ahead_ ? std::span(force_).last(4) : std::span(force_));
+    if (!nodes_are_ahead_)
+      for (const auto run : acting_) clear_vectors(run.of(force_));
+    clear_vectors(std::span(force_).last(4));  // of the scratch node
     nodes_are_ahead_ = false;
-    clear_vectors(turning(moment_));
+    for (const auto run : acting_turning_) clear_vectors(run.of(moment_));
     stability_ = {};
     if (!has_loads_) return;
     std::fill(moments_.begin(), moments_.end(), Point{});
@@ -369,8 +372,10 @@ void ExplicitStep::update_velocities() {
     rotation_constraints_.find_reactions(analysis_, now, moment_.data());
     linkages_.add_to_reactions(constraints_, rotation_constraints_);
     linkages_.set_velocities(analysis_);
-    const bool sound = move_nodes(now);
-    if (!kick(state.angular_velocity, moment_, inverse_.rotary, now.average()) || !sound) remember_blow_up();
+    bool sound = move_nodes(now);
+    for (const auto run : acting_turning_)
+      if (!kick(run.of(state.angular_velocity), run.of(moment_), run.of<1>(inverse_.rotary), now.average())) sound = false;
+    if (!sound) remember_blow_up();
     linkages_.add_gyroscopic_moments(moment_.data());
     constraints_.enforce(analysis_, now);
     if (nodes_are_ahead_) constraints_.move_again(analysis_, now);
@@ -388,8 +393,13 @@ void ExplicitStep::update_velocities() {
 bool ExplicitStep::move_nodes(const Instant& now) {
   auto& state = analysis_.current;
   nodes_are_ahead_ = !is_observed();
-  if (!nodes_are_ahead_) return kick(state.velocity, force_, inverse_.mass, now.average());
-  return kick_and_drift({state.position, state.velocity, force_, inverse_.mass}, now.average(), now.next);
+  bool sound = true;
+  for (const auto run : acting_) {
+    const NodalPass nodes{run.of(state.position), run.of(state.velocity), run.of(force_), run.of<1>(inverse_.mass)};
+    if (!(nodes_are_ahead_ ? kick_and_drift(nodes, now.average(), now.next) : kick(nodes.velocity, nodes.force, nodes.inverse_mass, now.average())))
+      sound = false;
+  }
+  return sound;
 }
 
 }  // namespace balocco

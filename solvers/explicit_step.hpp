@@ -14,10 +14,12 @@
 #include "explicit_gyroscopic.hpp"
 #include "explicit_linkages.hpp"
 #include "explicit_motion.hpp"
+#include "explicit_nodes.hpp"
 #include "explicit_scale.hpp"
 #include "explicit_time.hpp"
 #include "explicit_timers.hpp"
 #include "mass_scaling.hpp"
+#include "rounding_energy.hpp"
 
 namespace balocco {
 
@@ -83,6 +85,7 @@ class ExplicitStep {
   void find_loaded_nodes();
   /// Of any rank.
   RigidDynamics::Uses uses_of_nodes() const;
+  void list_acting_nodes(const RigidDynamics::Uses& uses);
   void list_drifting_nodes();
   /// Of forces and moments, external ones too.
   void set_rounding_constants();
@@ -101,22 +104,21 @@ class ExplicitStep {
   /// What the halo sums: forces, and external ones if there are any.
   std::array<NodalForces, 2> summed_forces() { return {forces(), external_forces()}; }
   NodalForces external_forces() { return {external_force_.data(), external_moment_.data()}; }
-  std::span<double> turning(std::vector<double>& nodal) const {
-    return std::span(nodal).first(4 * static_cast<std::size_t>(analysis_.domain.turning));
-  }
   /// Adds the work of external and damping forces over half an increment.
   void add_half_work(double increment, std::vector<NodalWork>& work) const;
   void remember_blow_up();
   void report_failure();
   /// @throws AnalysisError where energy came from nowhere or went nowhere. Collective.
   void check_energy_balance();
+  /// Collective.
+  void find_negligible_energy();
   bool lands() const;
   /// Whether anybody looks at the state when the cycle has ended; alike on all ranks.
   bool is_observed() const { return attention_ || finished() || lands(); }
   /// The new velocities of nodes, without constraints; where nobody looks, their new positions too. @return false: the run has blown up.
   bool move_nodes(const Instant& now);
   [[noreturn]] void report_collapse();
-  /// Whenever somebody looks: the first folded element and the first that has turned inside out are told; those that are so when the step
+  /// In regular increments and at the end: the first folded element and the first that has turned inside out are told; those that are so when the step
   /// ends make it fail. In between they may recover, as a tyre's do that a blow has crushed.
   void watch_folding();
   void tell_first(bool& told, const std::optional<FoldedCorner>& found, const std::function<std::string(std::int64_t)>& text);
@@ -147,10 +149,13 @@ class ExplicitStep {
   std::vector<double> moment_, external_moment_, damping_moment_;
   std::vector<std::int32_t> loaded_nodes_;  // on which external forces may act, sorted
   std::size_t loaded_turning_ = 0;          // the first of them turn
-  std::vector<std::pair<std::size_t, std::size_t>> drifting_;  // first node and number of runs of nodes that turn by themselves
-  std::vector<Point> moments_;                                  // external, per rigid body
+  std::vector<NodeRun> acting_, acting_turning_;  // nodes that forces may move, and those of them that turn
+  std::vector<NodeRun> drifting_;                 // nodes that turn by themselves
+  std::vector<Point> moments_;                    // external, per rigid body
   LocalStability stability_;
   double next_increment_ = 0.0, last_increment_ = 0.0;
+  RoundingEnergy rounding_energy_;
+  double negligible_energy_ = 0.0;       // when the balance was checked last
   bool checked_before_landing_ = false;  // the energy balance
   bool told_folded_ = false, told_inside_out_ = false;  // by this run
   bool attention_ = true;               // the observer looks at this increment, and always at the start

@@ -92,16 +92,17 @@ void ExplicitStep::renew_restraints() {
   set_rounding_constants();
 }
 
-/// Runs of nodes that turn, but for those that have their orientation from a body.
+/// All but those that only follow a body and that nothing pushes: they have no forces, and their places when somebody looks.
+void ExplicitStep::list_acting_nodes(const RigidDynamics::Uses& uses) {
+  const auto acts = [&](std::int32_t node) { return analysis_.carrier(node) < 0 || uses.pushed[node] || uses.asked[node]; };
+  acting_ = find_runs(analysis_.domain.size(), acts);
+  acting_turning_ = find_runs(analysis_.domain.turning, acts);
+}
+
+/// Nodes that turn, but for those that have their orientation from a body.
 void ExplicitStep::list_drifting_nodes() {
   const auto oriented = bodies_.orients();
-  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node) {
-    if (!oriented.empty() && oriented[node]) continue;
-    if (!drifting_.empty() && drifting_.back().first + drifting_.back().second == static_cast<std::size_t>(node))
-      ++drifting_.back().second;
-    else
-      drifting_.emplace_back(node, 1);
-  }
+  drifting_ = find_runs(analysis_.domain.turning, [&](std::int32_t node) { return oriented.empty() || !oriented[node]; });
 }
 
 }  // namespace balocco

@@ -267,7 +267,8 @@ void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre
       "*OUTPUT, FIELD, NUMBER INTERVAL={}\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, TIME INTERVAL={:g}",
       drive.frames, drive.history_interval);
   write_history(deck);
-  deck.line("*ENERGY OUTPUT\nALLIE, ALLKE, ALLWK, ETOTAL");
+  constexpr double rows_between_energies = 10.0;  // they change slowly and ask every element
+  deck.line("*OUTPUT, HISTORY, TIME INTERVAL={:g}\n*ENERGY OUTPUT\nALLIE, ALLKE, ALLWK, ETOTAL", rows_between_energies * drive.history_interval);
   write_parts_history(spec, mesh, deck);
   deck.line("*RESTART, WRITE, NUMBER INTERVAL=4\n*END STEP");
 }

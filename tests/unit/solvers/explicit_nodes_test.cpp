@@ -54,6 +54,18 @@ TEST(ExplicitNodes, FusedPassLeavesTheForcesOfARunThatHasBlownUp) {
   EXPECT_EQ(nodes.position[4 * (count - 1)], Nodes().position[4 * (count - 1)] + 0.2 * nodes.velocity[4 * (count - 1)]);
 }
 
+TEST(ExplicitNodes, RunsAreOfNeighboursAndLeaveTheOthersAlone) {
+  const auto runs = find_runs(10, [](std::int32_t node) { return node < 2 || (node > 3 && node != 7); });
+  ASSERT_EQ(runs.size(), 3u);
+  std::vector<double> nodal(40, 1.0);
+  for (const auto run : runs) clear_vectors(run.of(nodal));
+  for (std::size_t node = 0; node < 10; ++node) {
+    const bool left_alone = node == 2 || node == 3 || node == 7;
+    EXPECT_EQ(nodal[4 * node], left_alone ? 1.0 : 0.0) << node;
+    EXPECT_EQ(nodal[4 * node + 3], 1.0) << node;
+  }
+}
+
 TEST(ExplicitNodes, OnlyTheNodesNamedAreClearedAndAdded) {
   Nodes nodes;
   const std::vector<std::int32_t> some{3, 17};
