@@ -212,7 +212,7 @@ def describe_drive(page, folder, fidelity):
     describe_stress(page, drive, instants_of_stress(obstacle, columns, away), fidelity)
     describe_energy(page, folder, drive, columns)
     page.heading("What the paper says, what Balocco finds")
-    page.table(("", "the paper", "Balocco"), car_findings.compare(obstacle, columns, away, drive, drive.steps[-1], fidelity))
+    page.table(("", "the paper", "Balocco", "why they differ"), car_findings.compare(obstacle, columns, away, drive, drive.steps[-1], fidelity))
 
 
 def report(folder, path):

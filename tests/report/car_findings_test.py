@@ -42,13 +42,18 @@ class Findings(unittest.TestCase):
         self.assertEqual(when(True, away), [70.0, 100.0])
         self.assertEqual(when(True, {"wheel_centre_front_left": away["wheel_centre_front_left"] - 700.0}), [])
 
-    def test_peaks_of_the_rear_wheel_count_from_the_ramp_on(self):
+    def test_peaks_in_the_hole_count_from_the_ramp_on(self):
         distance = np.linspace(-1000.0, 1000.0, 201)
-        columns = {"wheel_centre_rear_left_Fz": np.where(distance < -500.0, 99e3, np.where(distance == 500.0, 21e3, 2e3)),
+        columns = {"time": np.arange(201.0), "wheel_centre_rear_left_Fz": np.where(distance < -500.0, 99e3, np.where(distance > 400.0, 21e3, 2e3)),
                    "wheel_centre_rear_left_Fx": np.where(distance == 520.0, -18e3, 0.0)}
-        found = lambda distance: car_findings.rear_peaks(columns, {"wheel_centre_rear_left": distance})
-        self.assertEqual(found(distance), "21.0 kN and 18.0 kN")
+        found = lambda distance: car_findings.blow(columns, {"wheel_centre_rear_left": distance}, "wheel_centre_rear_left")
+        self.assertRegex(found(distance), r"below 150 Hz 21\.\d and \d\.\d kN; at most 21\.0 and 18\.0 kN")
         self.assertEqual(found(distance - 2000.0), "not reached in this drive")
+
+    def test_a_stop_is_told_by_what_pushes_a_member_together_most(self):
+        columns = {"travel": np.array([-5.0, -77.0, 60.0]), "force": np.array([-3600.0, -38400.0, 300.0])}
+        self.assertIn("the strut is pushed 72 mm together from where it stands and carries 38.4 kN",
+                      car_findings.squeezed(columns, "strut", "travel", "force"))
 
     def test_two_drives_are_compared_where_both_have_been(self):
         name = car_comparison.COMPARED[0]
