@@ -291,8 +291,8 @@ int dispatch(int argc, char** argv) {
   car_command->add_option("--output", command.model_file, "Deck of the equilibrium to write")->required();
   car_command->add_option("--drive", command.drive_file, "Deck of the drive to write, to be run with --import of the equilibrium");
   car_command->add_option("--kinematics", command.kinematics_file, "Deck to write that moves the axles without tyres");
-  car_command->add_option("--obstacle", command.car.obstacle, "Obstacle of the drive, instead of the description's: comfort or pothole")
-      ->check(CLI::IsMember({"comfort", "pothole"}));
+  car_command->add_option("--obstacle", command.car.obstacle, "Obstacle of the drive, instead of the description's: comfort, pothole or drop")
+      ->check(CLI::IsMember({"comfort", "pothole", "drop"}));
   car_command->add_option("--fidelity", command.car.fidelity, "What deforms, instead of the description's: complete, semi-flexible or rigid")
       ->check(CLI::IsMember({"complete", "semi-flexible", "rigid"}));
 

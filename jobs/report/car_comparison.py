@@ -24,12 +24,13 @@ def both(folder):
 
 
 class Loads:
-    """Forces of a drive below 150 Hz, against the distance of their wheel from the obstacle."""
+    """Forces of a drive below 150 Hz, against the distance of their wheel from the obstacle, or time."""
 
     def __init__(self, folder):
         deck, results = (os.path.join(folder, name) for name in ("drive.inp", "drive.h5"))
         columns = car_loads.table(deck, results)
-        away = car_findings.Obstacle(Results(results)).distances(columns)
+        course = car_findings.course(Results(results))
+        away, self.label = course.distances(columns), course.label
         self.distance = {name: away[name[:-3]] for name in COMPARED}
         self.force = {name: smooth(columns["time"], columns[name], car_findings.CUTOFF) for name in COMPARED}
 
@@ -51,7 +52,7 @@ def figure(drives):
         axis.grid(alpha=0.25)
         axis.legend(fontsize=7)
     for axis in axes[-1]:
-        axis.set_xlabel("wheel's centre from the obstacle, m")
+        axis.set_xlabel(next(iter(drives.values())).label)
     return shown
 
 

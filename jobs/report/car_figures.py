@@ -107,8 +107,8 @@ def road(results):
     return figure
 
 
-def against_distance(columns, distances, names, quantities, unit):
-    """One panel a quantity; one line a name. distances: {name: (n)}."""
+def against_distance(columns, distances, names, quantities, unit, label):
+    """One panel a quantity; one line a name. distances: {name: (n)}, in thousandths of what the label says."""
     figure, axes = grid(len(quantities), 1, height=2.6)
     for axis, quantity in zip(axes.flat, quantities):
         for name in names:
@@ -116,7 +116,7 @@ def against_distance(columns, distances, names, quantities, unit):
         axis.set_ylabel(f"{quantity}, {unit}")
         axis.grid(alpha=0.25)
         axis.legend(fontsize=7)
-    axes.flat[-1].set_xlabel("wheel's centre from the obstacle, m")
+    axes.flat[-1].set_xlabel(label)
     return figure
 
 

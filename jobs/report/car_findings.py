@@ -10,13 +10,39 @@ YIELD = 320.0  # MPa of the high-strength steel
 CUTOFF = 0.15  # kHz: peaks as far apart as the bar is long stay at 50 km/h, the noise of treads goes
 
 
+def unevenness(surface):
+    """Where along its profile a road is not level; nowhere: the car falls on it."""
+    along, height = surface.profile.T
+    return along[np.abs(height - height[0]) > 1e-6 * np.ptp(along)]
+
+
+def course(results):
+    """What a drive meets."""
+    return Obstacle(results) if len(unevenness(results.surfaces["ROAD_LEFT_SURFACE"])) else Drop()
+
+
+class Drop:
+    """A flat road, onto which the car falls: time stands for the distance from an obstacle."""
+
+    drop, hole = True, False
+    label = "since the start, s"
+    measure = "time"
+
+    def distances(self, columns):
+        return {name: columns["time"] for name, _, _ in car_loads.FORCES}
+
+
 class Obstacle:
     """What the left road has: a bump (its distances count from its middle) or a hole (from the edge where its ramp begins)."""
+
+    drop = False
+    label = "wheel's centre from the obstacle, m"
+    measure = "the distance of its wheel from the obstacle"
 
     def __init__(self, results):
         surface = results.surfaces["ROAD_LEFT_SURFACE"]
         along, height = surface.profile.T
-        uneven = along[np.abs(height - height[0]) > 1e-6 * np.ptp(along)]
+        uneven = unevenness(surface)
         self.height = float(height[np.argmax(np.abs(height - height[0]))] - height[0])
         self.hole = self.height < 0.0
         self.start, self.end = float(uneven.min()), float(uneven.max())
@@ -126,4 +152,18 @@ def compare(obstacle, columns, away, drive, step, fidelity):
               "the static load is the smaller here"),
              ("vertical peak at the strut mount", "10.5 kN", f"{columns[mount + '_Fz'][near].max() / 1e3:.1f} kN", strut),
              ("strut mount", "yields", house, ""), ("subframe", "", frame, "")]
+    return rows
+
+
+def of_drop(columns, drive, step, fidelity):
+    """Rows of what a fall does: what; how much, of the harder struck side."""
+    kilonewtons = lambda names: f"{max(float(np.abs(columns[name]).max()) for name in names) / 1e3:.1f} kN"
+    rows = [(f"vertical force at the {place.replace('_', ' ')}", kilonewtons([f"{place}_{side}_Fz" for side in ("left", "right")]))
+            for place in ("wheel_centre_front", "wheel_centre_rear", "strut_mount_front")]
+    for part in ("strut_front", "damper_rear"):
+        travel = min(float(columns[f"{part}_{side}_travel"].min()) for side in ("left", "right"))
+        rows.append((f"{part.replace('_', ' ')}", f"{-travel:.0f} mm shorter than as drawn, with "
+                     f"{kilonewtons([f'{part}_{side}_force' for side in ('left', 'right')])}"))
+    for title, part in (("strut houses", "STRUT_HOUSE"), ("subframe", "SUBFRAME")):
+        rows.append((title, stress_over(drive, step, (part,), fidelity == "rigid")))
     return rows

@@ -15,6 +15,7 @@ import car_energies
 import car_equilibrium
 import car_figures
 import car_findings
+import car_flights
 import car_kinematics
 import car_loads
 import car_modes
@@ -104,6 +105,8 @@ def describe_kinematics(page, path):
 
 def describe_obstacle(page, drive, obstacle, columns, away):
     page.heading("Obstacle")
+    if obstacle.drop:
+        return page.text(car_flights.Landing(drive, drive.steps[-1]).words())
     page.text(obstacle.words())
     out = np.flatnonzero(away["wheel_centre_rear_left"] > obstacle.behind)
     page.text(f"The rear wheels have left it after {columns['time'][out[0]]:.0f} ms of {columns['time'][-1]:.0f}." if len(out) else
@@ -111,45 +114,53 @@ def describe_obstacle(page, drive, obstacle, columns, away):
     page.figure(car_figures.road(drive), "The roads' profiles.")
 
 
-def describe_loads(page, obstacle, columns, away):
+def describe_loads(page, obstacle, step, columns, away):
     page.heading("Loads")
-    wheels = "the left wheel" if obstacle.hole else "the wheel"
     shown = [name for name, _, _ in car_loads.FORCES if not obstacle.hole or name.endswith("left")]
     for group in ("wheel_centre", "strut_mount"):
         names = [name for name in shown if name.startswith(group)]
-        page.figure(car_figures.against_distance(columns, away, names, ("Fz", "Fx", "Fy"), "N"),
-                    f"Forces of the {words(group)}s on the car against the distance of {wheels} from the obstacle.")
+        page.figure(car_figures.against_distance(columns, away, names, ("Fz", "Fx", "Fy"), "N", obstacle.label),
+                    f"Forces of the {words(group)}s on the car against {obstacle.measure}.")
     rails = sorted({name.rpartition("_")[0] for name in columns if name.startswith("section_")})
     if rails:
         places = dict.fromkeys(rails, away["wheel_centre_front_left"])
-        page.figure(car_figures.against_distance(columns, places, rails, ("N", "Vz"), "N"),
-                    "Section forces across the middles of the rails: tension, and shear up, of the front part on the rear one, "
-                    "against the distance of the front wheels.")
-        page.figure(car_figures.against_distance(columns, places, rails, ("My", "Mz"), "N mm"), "Moments in the same sections.")
+        page.figure(car_figures.against_distance(columns, places, rails, ("N", "Vz"), "N", obstacle.label),
+                    "Section forces across the middles of the rails: tension, and shear up, of the front part on the rear one; of the "
+                    "front wheels.")
+        page.figure(car_figures.against_distance(columns, places, rails, ("My", "Mz"), "N mm", obstacle.label),
+                    "Moments in the same sections.")
     else:
         page.missing("Section forces of the rails: they are rigid in this job; BALOCCO_FIDELITY=complete makes them deform.")
-    page.text("The same as tables: loads.csv and loads.h5 beside this page.")
+    page.table(("wheel", "the road carries at most, N", "after, ms", "off the road", "at the end, N"), car_flights.rows(step))
+    page.text("The forces as tables: loads.csv and loads.h5 beside this page.")
+
+
+def instants_of_motion(obstacle, columns, away):
+    """Times at which the car is shown: as wheels come to the obstacle and leave it; evenly over a fall."""
+    if obstacle.drop:
+        return list(np.linspace(columns["time"][0], columns["time"][-1], 6))
+    axles = (away["wheel_centre_front_left"], away["wheel_centre_rear_left"])
+    places = (-250.0, 300.0, obstacle.behind - 300.0, obstacle.behind) if obstacle.hole else (-250.0, 0.0, 300.0)
+    return sorted(float(np.interp(place, values, columns["time"])) for values in axles for place in places
+                  if values[0] < place < values[-1])
 
 
 def describe_motion(page, obstacle, drive, columns, away):
     page.heading("Motion")
     for group in ("wheel_centre", "strut_mount"):
         names = [name for name, _, _ in car_loads.FORCES if name.startswith(group)]
-        page.figure(car_figures.against_distance(columns, away, names, ("Uz", "Ux"), "mm"),
+        page.figure(car_figures.against_distance(columns, away, names, ("Uz", "Ux"), "mm", obstacle.label),
                     f"Motion of the {words(group)}s since the start.")
     along = [name.lower() for name in car_loads.ALONG]
     travelled = {name: away[f"wheel_centre_{'front' if 'front' in name else 'rear'}_left"] for name in along}
-    page.figure(car_figures.against_distance(columns, travelled, along, ("travel",), "mm"),
+    page.figure(car_figures.against_distance(columns, travelled, along, ("travel",), "mm", obstacle.label),
                 "Springs and dampers: longer than as drawn.")
-    axles = (away["wheel_centre_front_left"], away["wheel_centre_rear_left"])
-    places = (-250.0, 300.0, obstacle.behind - 300.0, obstacle.behind) if obstacle.hole else (-250.0, 0.0, 300.0)
-    instants = sorted(float(np.interp(place, values, columns["time"])) for values in axles for place in places
-                      if values[0] < place < values[-1])
     roads = [drive.node_sets["ROAD_LEFT"][0]]
-    page.figure(car_figures.motion(drive, drive.steps[-1], instants or [0.0], roads), "Frames of the motion.")
+    page.figure(car_figures.motion(drive, drive.steps[-1], instants_of_motion(obstacle, columns, away) or [0.0], roads),
+                "Frames of the motion.")
 
 
-def describe_both(page, folder):
+def describe_both(page, obstacle, folder):
     page.heading("The semi-flexible and the complete car")
     folders = car_comparison.both(folder)
     if not folders:
@@ -157,20 +168,22 @@ def describe_both(page, folder):
                             "bash jobs/run.sh car drive them.")
     drives = {fidelity: car_comparison.Loads(path) for fidelity, path in folders.items()}
     page.figure(car_comparison.figure(drives), "Forces on the car on its left side, below 150 Hz, as far as both have been driven, "
-                "against the distance from the obstacle.")
+                f"against {obstacle.measure}.")
     page.table(("force on the car, N", "semi-flexible: farthest from its start", "complete: likewise", "differs by",
                 "root mean square of the difference"), car_comparison.rows(drives))
 
 
 def instants_of_stress(obstacle, columns, away):
     """Times at which stress is shown, by what happens then; none before the obstacle."""
-    wheel = "wheel_centre_front_left"
+    wheel, end = "wheel_centre_front_left", {"at the end": float(columns["time"][-1])}
+    highest = float(columns["time"][np.argmax(columns[f"{wheel}_Fz"])])
+    if obstacle.drop:
+        return {"the left front wheel carries most": highest} | end
     if away[wheel].max() < 0.0:
         return {}
     if not obstacle.hole:
         return {"the front wheels above the obstacle's middle": float(np.interp(0.0, away[wheel], columns["time"]))}
-    return {"the left front wheel strikes the ramp out of the hole": float(columns["time"][np.argmax(columns[f"{wheel}_Fz"])]),
-            "at the end": float(columns["time"][-1])}
+    return {"the left front wheel strikes the ramp out of the hole": highest} | end
 
 
 def describe_stress(page, drive, instants, fidelity):
@@ -202,15 +215,18 @@ def describe_energy(page, folder, drive, columns):
 def describe_drive(page, folder, fidelity):
     deck, results = (os.path.join(folder, name) for name in ("drive.inp", "drive.h5"))
     drive, columns = Results(results), car_loads.table(deck, results)
-    obstacle = car_findings.Obstacle(drive)
+    obstacle = car_findings.course(drive)
     away = obstacle.distances(columns)
     describe_obstacle(page, drive, obstacle, columns, away)
-    describe_loads(page, obstacle, columns, away)
+    describe_loads(page, obstacle, drive.steps[-1], columns, away)
     if fidelity in car_comparison.FIDELITIES:
-        describe_both(page, folder)
+        describe_both(page, obstacle, folder)
     describe_motion(page, obstacle, drive, columns, away)
     describe_stress(page, drive, instants_of_stress(obstacle, columns, away), fidelity)
     describe_energy(page, folder, drive, columns)
+    if obstacle.drop:
+        page.heading("What Balocco finds")
+        return page.table(("", "Balocco"), car_findings.of_drop(columns, drive, drive.steps[-1], fidelity))
     page.heading("What the paper says, what Balocco finds")
     page.table(("", "the paper", "Balocco", "why they differ"), car_findings.compare(obstacle, columns, away, drive, drive.steps[-1], fidelity))
 

@@ -102,6 +102,7 @@ std::string car_without_tyres(const CarSpec& spec, const BodyMesh& mesh, const C
   write_front_suspension(spec, mesh, weights, deck);
   write_rear_suspension(spec, mesh, weights, deck);
   write_engine(spec, deck);
+  deck.line("*NSET, NSET=ALL_BUT_TYRES, GENERATE\n1, {}", deck.last_node());
   return deck.text();
 }
 
@@ -132,7 +133,7 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   const auto wheel = wheel_of(spec, tyre, files);
   car.car = car_without_tyres(spec, mesh, weights, {.mesh = wheel, .rims = strikes_rim(tyre)});
   DeckText equilibrium, drive, kinematics;
-  write_equilibrium(spec, tyre, facts, equilibrium);
+  write_equilibrium(spec, tyre, facts, droop(spec, weights), equilibrium);
   write_drive(spec, mesh, tyre, facts, wheel_loads(spec, weights, facts.mass), drive);
   write_kinematics(spec, kinematic_travel, kinematics);
   car.equilibrium = equilibrium.text();

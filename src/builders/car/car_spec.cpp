@@ -243,6 +243,17 @@ std::vector<MountSpec> read_mounts(SpecTable& top, const char* kind, bool heavy)
   return mounts;
 }
 
+void read_pressure(SpecTable& top, CarSpec& spec) {
+  if (!top.has("pressure")) return;
+  auto table = top.table("pressure");
+  const std::pair<const char*, int> wheels[]{{"front_left", 0}, {"front_right", 1}, {"rear_left", 2}, {"rear_right", 3}};
+  for (const auto& [name, wheel] : wheels) {
+    const double pressure = table.number(name, Bounds::not_negative("MPa"), 0.0);
+    if (table.has(name)) spec.pressure[wheel] = pressure;
+  }
+  table.refuse_unknown();
+}
+
 }  // namespace
 
 const std::vector<std::string> member_names{
@@ -262,6 +273,7 @@ CarSpec read_car_spec(const std::string& toml_text, const std::string& file_name
   if (!choices.fidelity.empty()) spec.fidelity = choices.fidelity;
   spec.tyre = top.path("tyre");
   spec.tyre_where = top.where("tyre");
+  read_pressure(top, spec);
   spec.mesh_size = top.number("mesh_size", Bounds::between(3.0, 200.0, "mm"));
   spec.weld_pitch = top.number("weld_pitch", Bounds::positive("mm"));
   read_profile(top, spec.profile);

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -82,6 +83,7 @@ struct CarSpec {
   std::string file_name, title;
   std::string fidelity;  // complete, semi-flexible or rigid
   std::string tyre, tyre_where;  // path of the tyre's description, and where it stands for messages
+  std::array<std::optional<double>, 4> pressure;  // MPa in tyres that stand and drive with another than their description's
   double mesh_size = 0.0, weld_pitch = 0.0;  // mm
   ProfileSpec profile;
   BodySpec body;

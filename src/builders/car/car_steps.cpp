@@ -1,5 +1,7 @@
 #include "builders/car/car_steps.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 #include <set>
 
@@ -14,6 +16,7 @@ namespace {
 constexpr double gravity = 9.81e-3;  // mm/ms2
 // ms of a static step. Dampers push there too, by the increment of motion over that of time, as in Abaqus: so slowly it is nothing.
 constexpr double period = 1e6;
+constexpr double least_fall = 20.0;  // mm from the wheels that hang lowest to the road where a fall begins: they are estimated
 
 const char* side_of(const std::string& wheel) {
   return wheel.ends_with("LEFT") ? "LEFT" : "RIGHT";
@@ -76,11 +79,18 @@ void write_wheels_density(const WheelSpec& wheel, DeckText& deck) {
   }
 }
 
+/// Of all tyres as their description has it, or of some as the car's has it.
+void inflate(const CarSpec& spec, double pressure, bool as_they_stand, DeckText& deck) {
+  deck.line("*DSLOAD");
+  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel)
+    deck.line("LINER_{}, P, {:g}", wheel_names[wheel], as_they_stand ? spec.pressure[wheel].value_or(pressure) : pressure);
+}
+
 /// Writes the steps of the equilibrium; each says all that acts in it.
 class StepText {
  public:
-  StepText(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck)
-      : spec_(spec), tyre_(tyre), facts_(facts), deck_(deck) {}
+  StepText(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, double droop, DeckText& deck)
+      : spec_(spec), tyre_(tyre), facts_(facts), droop_(droop), deck_(deck) {}
 
   void seat() {
     begin("SEAT", 0.25, 0.5);
@@ -140,11 +150,31 @@ class StepText {
   /// Free wheels let the car roll along: that alone is held, and hardly pulls; all else is held by friction.
   void stand() {
     begin("STAND", 0.1, 0.25);
-    deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 1", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
-    hold_roads(rise());
+    let_go();
     inflate(tyre_.statics.pressure);
     weight();
-    deck_.line("*RESTART, WRITE, FREQUENCY=1000000");
+    write_restart();
+    end();
+  }
+
+  /// Tyres lose their air below the standing car.
+  void deflate() {
+    begin("DEFLATE", 0.05, 0.1);
+    let_go();
+    car::inflate(spec_, tyre_.statics.pressure, true, deck_);
+    weight();
+    write_restart();
+    end();
+  }
+
+  /// As the car is while it falls: its wheels have no weight and hang on their stops. Held where nothing pulls.
+  void fall() {
+    begin("FALL", 0.05, 0.1);
+    deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 6", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
+    hold_hubs(5, 5);
+    hold_roads(spec_.chassis.road.clearance - droop_ - std::min(least_fall, spec_.chassis.drive.height));
+    car::inflate(spec_, tyre_.statics.pressure, true, deck_);
+    write_restart();
     end();
   }
 
@@ -168,10 +198,12 @@ class StepText {
       deck_.line("ROAD_{}, 1, 2\nROAD_{}, 3, 3, {:g}\nROAD_{}, 4, 6", side, side, up, side);
   }
   void hold_body() { car::hold_body(spec_, deck_); }
-  void inflate(double pressure) {
-    deck_.line("*DSLOAD");
-    for (const auto* wheel : wheel_names) deck_.line("LINER_{}, P, {:g}", wheel, pressure);
+  void inflate(double pressure) { car::inflate(spec_, pressure, false, deck_); }
+  void let_go() {
+    deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 1", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
+    hold_roads(rise());
   }
+  void write_restart() { deck_.line("*RESTART, WRITE, FREQUENCY=1000000"); }
   void weight() { deck_.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity); }
 
   void end() {
@@ -183,6 +215,7 @@ class StepText {
   const CarSpec& spec_;
   const TyreSpec& tyre_;
   const TyreFacts& facts_;
+  double droop_;
   DeckText& deck_;
 };
 
@@ -205,14 +238,16 @@ void write_fidelity(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   }
 }
 
-void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck) {
+void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, double droop, DeckText& deck) {
   deck.chapter("EQUILIBRIUM");
-  StepText steps(spec, tyre, facts, deck);
+  StepText steps(spec, tyre, facts, droop, deck);
   steps.seat();
   steps.inflate_tyres();
+  if (spec.chassis.drive.height > 0.0) return steps.fall();
   steps.weigh();
   steps.touch();
   steps.stand();
+  if (std::ranges::any_of(spec.pressure, [](const auto& pressure) { return pressure.has_value(); })) steps.deflate();
   steps.ride();
 }
 
@@ -234,34 +269,54 @@ void write_kinematics(const CarSpec& spec, double travel, DeckText& deck) {
   }
 }
 
-void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre, const TyreFacts& facts,
-                 const CornerWeights& loads, DeckText& deck) {
-  const auto& drive = spec.chassis.drive;
-  deck.chapter("DRIVE: the roads run, the car is free");
+namespace {
+
+/// The roads run and the wheels turn.
+void write_rolling_start(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, const CornerWeights& loads, DeckText& deck) {
+  const double speed = spec.chassis.drive.speed;
   const auto centres = wheel_centres(spec);
-  const bool has_shells = !spec.chassis.wheel.mesh.empty();
   for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
     const auto& at = centres[wheel];
     deck.line("*NSET, NSET=WHEEL_{}\nTYRE_{}, HUB_{}", wheel_names[wheel], wheel_names[wheel], wheel_names[wheel]);
-    if (has_shells) deck.line("RIM_AND_DISC_{}, SEATS_{}", wheel_names[wheel], wheel_names[wheel]);
+    if (!spec.chassis.wheel.mesh.empty()) deck.line("RIM_AND_DISC_{}, SEATS_{}", wheel_names[wheel], wheel_names[wheel]);
     const double radius = rolling_radius(tyre, facts.outer_radius, wheel < 2 ? loads.front : loads.rear);
     deck.line("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nWHEEL_{}, {:.9g}, 0., 0., 0.", wheel_names[wheel],
-              drive.speed / radius);
+              speed / radius);
     deck.line("{:g}, {:g}, {:g}, {:g}, {:g}, {:g}", at[0], at[1], at[2], at[0], at[1] + 1.0, at[2]);  // two points of the axis
   }
-  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -drive.speed);
+  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -speed);
+}
+
+/// All falls as fast as from the whole height, but for what is left of it.
+void write_falling_start(const DriveSpec& drive, DeckText& deck) {
+  const double speed = std::sqrt(2.0 * gravity * std::max(drive.height - least_fall, 0.0));
+  deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nALL_BUT_TYRES, 3, {:.9g}", -speed);
+  for (const auto* wheel : wheel_names) deck.line("TYRE_{}, 3, {:.9g}", wheel, -speed);
+}
+
+}  // namespace
+
+void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre, const TyreFacts& facts,
+                 const CornerWeights& loads, DeckText& deck) {
+  const auto& drive = spec.chassis.drive;
+  if (drive.height > 0.0) {
+    deck.chapter("DROP: the car falls on its wheels");
+    write_falling_start(drive, deck);
+  } else {
+    deck.chapter("DRIVE: the roads run, the car is free");
+    write_rolling_start(spec, tyre, facts, loads, deck);
+  }
   deck.line("*TIME POINTS, NAME=FRAMES, GENERATE\n0., {:g}, {:g}", drive.duration, drive.duration / drive.frames);
   deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}",
             tyre.rolling.scale_factor, drive.duration, tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
   if (drive.stable_increment > 0.0) deck.line("*FIXED MASS SCALING, TYPE=BELOW MIN, DT={:g}", drive.stable_increment);
-  if (has_shells) write_wheels_density(spec.chassis.wheel, deck);
+  if (!spec.chassis.wheel.mesh.empty()) write_wheels_density(spec.chassis.wheel, deck);
   deck.line("*MODEL CHANGE, TYPE=CONTACT PAIR, ADD");
   write_road_pairs(deck);
   write_rim_pairs(tyre, deck);
   for (const auto* side : {"LEFT", "RIGHT"})
-    deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, -drive.speed, side);
-  deck.line("*DSLOAD");
-  for (const auto* wheel : wheel_names) deck.line("LINER_{}, P, {:g}", wheel, tyre.statics.pressure);
+    deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, 0.0 - drive.speed, side);
+  inflate(spec, tyre.statics.pressure, true, deck);
   deck.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity);
   deck.line(
       "*OUTPUT, FIELD, NUMBER INTERVAL={}\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, TIME INTERVAL={:g}",

@@ -42,6 +42,7 @@ class DeckText {
   /// Gives the next ids away; who asked for them writes the nodes.
   void reserve_nodes(std::int64_t count) { nodes_ += count; }
   std::int64_t next_node() { return ++nodes_; }
+  std::int64_t last_node() const { return nodes_; }
   std::int64_t next_element() { return ++elements_; }
   const std::string& text() const { return text_; }
 

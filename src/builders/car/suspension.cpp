@@ -153,7 +153,47 @@ void write_corner(const CarSpec& spec, const Side& side, DeckText& deck) {
   linkage.connector("BEARING_FRONT_" + s, "HINGE", axle, deck.node_of("HUB_FRONT_" + s), "ACROSS", "");
 }
 
+/// Force of a stop pressed by so many mm.
+double stop_force(const StrutSpec& strut, double pressed) {
+  for (std::size_t i = 1; i < strut.stop.size(); ++i) {
+    const auto &below = strut.stop[i - 1], &above = strut.stop[i];
+    if (pressed <= above[0] || i + 1 == strut.stop.size())
+      return below[1] + (above[1] - below[1]) * std::max(pressed - below[0], 0.0) / (above[0] - below[0]);
+  }
+  return 0.0;
+}
+
+/// mm by which a wheel sinks until its stop carries its spring, which now pushes with `load`. Spring and stop grow longer by so many
+/// mm for each mm that the wheel sinks.
+double sinks(const StrutSpec& strut, double load, double spring, double stop) {
+  double low = 0.0, high = load / (strut.spring_rate * spring);
+  while (high - low > 1e-3) {
+    const double middle = 0.5 * (low + high);
+    const bool pushes = (load - strut.spring_rate * spring * middle) * spring > stop_force(strut, stop * middle - strut.rebound_gap) * stop;
+    (pushes ? low : high) = middle;
+  }
+  return low;
+}
+
+/// The wheel turns about the point where the arm's line meets the normal of the strut in its top; seen from ahead.
+double strut_per_wheel(const CarSpec& spec) {
+  const auto& front = spec.chassis.front;
+  const Vector top = spec.body.strut_top, along = unit(top - hard_point(spec, front.strut_lower)),
+               ball = hard_point(spec, front.ball_joint), arm = ball - hard_point(spec, 0.5 * (front.arm_front + front.arm_rear));
+  const auto across = [](const Vector& a, const Vector& b) { return a[1] * b[2] - a[2] * b[1]; };
+  const Vector normal{0.0, along[2], -along[1]};
+  const double away = across(ball - top, arm) / across(normal, arm);
+  return std::abs(away / (wheel_centres(spec)[0][1] - top[1] - away * normal[1]));
+}
+
 }  // namespace
+
+double droop(const CarSpec& spec, const CornerWeights& weights) {
+  const auto& [front, rear] = std::pair<const FrontSpec&, const RearSpec&>(spec.chassis.front, spec.chassis.rear);
+  const double strut = strut_per_wheel(spec), pivot = place_of_mount(spec, "axle_pivot")[0], arm = pivot + spec.profile.wheelbase,
+               spring = (pivot - rear.spring_seat[0]) / arm, damper = (pivot - rear.damper_lower[0]) / arm;
+  return std::max(sinks(front.strut, weights.front / strut, strut, strut), sinks(rear.strut, weights.rear / spring, spring, damper));
+}
 
 std::array<Vector, 4> wheel_centres(const CarSpec& spec) {
   const auto& p = spec.profile;

@@ -20,6 +20,10 @@ CornerWeights wheel_loads(const CarSpec& spec, const CornerWeights& sprung, doub
 /// Places of the wheels' centres at design height, as wheel_names.
 std::array<Vector, 4> wheel_centres(const CarSpec& spec);
 
+/// How far below design height, mm, the wheels that sink most come to rest where nothing carries them: on their rebound stops. Small
+/// motions and no rubber: good to some millimetres.
+double droop(const CarSpec& spec, const CornerWeights& weights);
+
 /// Springs are as long without load as makes them carry `weights` at design height.
 void write_front_suspension(const CarSpec& spec, const BodyMesh& mesh, const CornerWeights& weights, DeckText& deck);
 void write_rear_suspension(const CarSpec& spec, const BodyMesh& mesh, const CornerWeights& weights, DeckText& deck);

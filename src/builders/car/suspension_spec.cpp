@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <span>
-#include <tuple>
 #include <utility>
 
 #include "builders/spec_table.hpp"
@@ -196,15 +195,19 @@ void read_engine(SpecTable& top, EngineSpec& engine) {
 
 void read_drive(SpecTable& top, const CarChoices& choices, DriveSpec& drive) {
   auto table = top.table("drive");
-  drive.obstacle = table.text("obstacle", {"comfort", "pothole"});
+  drive.obstacle = table.text("obstacle", {"comfort", "pothole", "drop"});
   if (!choices.obstacle.empty()) drive.obstacle = choices.obstacle;
-  for (const auto* name : {"comfort", "pothole"}) {
+  for (const std::string name : {"comfort", "pothole", "drop"}) {
+    const bool falls = name == "drop", chosen = drive.obstacle == name;
+    if (!chosen && !table.has(name)) continue;
     auto course = table.table(name);
-    const double speed = course.number("speed", Bounds::positive("mm/ms")),
+    const double start = falls ? course.number("height", Bounds::positive("mm")) : course.number("speed", Bounds::positive("mm/ms")),
                  duration = course.number("duration", Bounds::positive("ms")),
                  complete = course.number("complete_duration", Bounds::positive("ms"), duration);
     course.refuse_unknown();
-    if (drive.obstacle == name) std::tie(drive.speed, drive.duration) = std::pair(speed, choices.fidelity == "complete" ? complete : duration);
+    if (!chosen) continue;
+    (falls ? drive.height : drive.speed) = start;
+    drive.duration = choices.fidelity == "complete" ? complete : duration;
   }
   drive.frames = table.integer("frames", 1, 100000);
   drive.history_interval = table.number("history_interval", Bounds::positive("ms"));

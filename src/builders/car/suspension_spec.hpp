@@ -77,8 +77,9 @@ struct EngineSpec {
 };
 
 struct DriveSpec {
-  std::string obstacle;                           // comfort: under both sides; pothole: under the left wheels alone
+  std::string obstacle;                           // comfort: under both sides; pothole: under the left wheels alone; drop: none
   double speed = 0.0;                             // mm/ms
+  double height = 0.0;                            // mm of a fall until the first wheel touches; 0: it does not fall
   double duration = 0.0, history_interval = 0.0;  // ms
   double stable_increment = 0.0;                     // ms: elements that allow less are made denser; 0: none are
   int frames = 0;

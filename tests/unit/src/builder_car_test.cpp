@@ -212,6 +212,13 @@ TEST(CarSpec, WhatCannotBeAssembledIsToldWithLineAndCure) {
   is_told("[mount.axle_pivot]", "[mount.axle_pivots]", line_of("[mount.strut_mount_front]"), "[mount] axle_pivot: missing");
   is_told("wheel_height = 268.0", "wheel_height = 298.0", line_of("wheel_height ="), "is not on the road");
   is_told("wheel_height = 268.0", "wheel_height = 178.0", line_of("wheel_height ="), "is on the road");
+  is_told("obstacle = \"comfort\" ", "obstacle = \"dorp\"    ", line_of("obstacle = \"comfort\""), "did you mean \"drop\"?");
+  is_told("height = 500.0", "height = -500.0", line_of("height = 500.0"), "[drive.drop] height: -500 is out of range");
+  is_told("height = 500.0", "heigth = 500.0", line_of("height = 500.0"), "did you mean \"height\"?");
+  is_told("[drive.drop]", "[pressure]\nfront_let = 0.0\n[drive.drop]", std::to_string(std::stoi(line_of("[drive.drop]")) + 1),
+          "did you mean \"front_left\"?");
+  is_told("[drive.drop]", "[pressure]\nrear_right = -0.1\n[drive.drop]", std::to_string(std::stoi(line_of("[drive.drop]")) + 1),
+          "[pressure] rear_right: -0.1 is out of range");
   const auto damper = main_spec().find("damper_bump");
   const auto curve = main_spec().substr(damper, main_spec().find('\n', damper) - damper);
   is_told(curve, "", line_of("[front.strut]"), "[front.strut] damper_bump: missing");
@@ -311,6 +318,22 @@ TEST(CarBuilder, APotholeLiesBelowTheLeftWheelsAloneAndTheObstacleBelowBothSides
   EXPECT_EQ(extremes(hole, right), (std::array<double, 2>{0.0, 0.0}));
   EXPECT_NE(hole.drive.find("ROAD_LEFT, 1, -11.11\n"), std::string::npos);
   EXPECT_NE(comfort.drive.find("ROAD_LEFT, 1, -13.9\n"), std::string::npos);
+}
+
+TEST(CarBuilder, ADropStartsWeightlessOnReboundStopsAndFallsAsOneAboveAFlatRoad) {
+  const auto drop = build_car(main_spec(), BALOCCO_CAR_SPEC, files, {.obstacle = "drop", .fidelity = ""});
+  for (const auto pair : {0, 2}) EXPECT_EQ(drop.tyres.surfaces[drop.tyres.contact_pairs[pair].master].analytical->profile.size(), 1u);
+  const auto fall = drop.equilibrium.substr(drop.equilibrium.find("NAME=FALL"));
+  EXPECT_EQ(drop.equilibrium.find("GRAV"), std::string::npos);
+  EXPECT_NE(fall.find("BODY_REFERENCE, 1, 6\n"), std::string::npos);
+  EXPECT_EQ(fall.find("*STEP"), std::string::npos);  // it is the last
+  // The road lies 20 mm below the front wheels, which sink by 90 mm of rebound and some 15 of the stop along a leaning strut.
+  const auto road = fall.find("ROAD_LEFT, 3, 3, ") + std::string("ROAD_LEFT, 3, 3, ").size();
+  EXPECT_NEAR(std::stod(fall.substr(road)), 8.0 - 110.0 - 20.0, 3.0);
+  EXPECT_NE(drop.drive.find("ALL_BUT_TYRES, 3, -3.06881"), std::string::npos);  // sqrt(2 * 9.81e-3 * 480)
+  EXPECT_NE(drop.drive.find("TYRE_REAR_RIGHT, 3, -3.06881"), std::string::npos);
+  EXPECT_EQ(drop.drive.find("ROTATING VELOCITY"), std::string::npos);
+  EXPECT_NE(drop.drive.find("ROAD_LEFT, 1, 1, 0\n"), std::string::npos);
 }
 
 }  // namespace
