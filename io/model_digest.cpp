@@ -79,11 +79,11 @@ void add_material(Digest& digest, const Model& model, std::int32_t row) {
 
 }  // namespace
 
-std::uint64_t digest_of_element(const Model& model, const ElementTable& table, std::int32_t row) {
+std::uint64_t digest_of_element(const Model& model, const ElementTable& table, std::int32_t row, std::int64_t node_shift) {
   Digest digest;
   for (int i = 0; i < table.type->nodes; ++i) {
     const auto node = table.connectivity[static_cast<std::size_t>(row) * table.type->nodes + i];
-    digest.add(node >= 0 ? model.nodes.id[node] : std::int64_t{0});
+    digest.add(node >= 0 ? model.nodes.id[node] - node_shift : std::int64_t{0});
   }
   return digest.value();
 }

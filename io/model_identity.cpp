@@ -2,6 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
 #include "constraints/constraint.hpp"
 #include "elements/element_type.hpp"
 #include "elements/surface_nodes.hpp"
@@ -119,6 +123,16 @@ void refuse_import(const std::string& path, const Model& model, const std::strin
   throw InputError(fmt::format("{}: error: *IMPORT: {} has {}", model.where(model.state_import->location), path, what));
 }
 
+std::int64_t id_there(const Model& model, std::int32_t node_row) {
+  const auto* const copy = model.state_import->copy_of(node_row);
+  return model.nodes.id[node_row] - (copy == nullptr ? 0 : copy->node_shift);
+}
+
+std::int64_t id_there(const Model& model, ElementRef element) {
+  const auto* const copy = model.state_import->copy_of(element);
+  return model.elements[element.table].id[element.row] - (copy == nullptr ? 0 : copy->element_shift);
+}
+
 std::int64_t refuse_other_step(const Hdf5File& file, const std::string& path, const Model& model) {
   const auto& asked = model.state_import->step;
   const auto step = file.integer_attribute("/", "step");
@@ -130,26 +144,59 @@ std::int64_t refuse_other_step(const Hdf5File& file, const std::string& path, co
   return step;
 }
 
-void refuse_other_nodes(const ModelIdentity& identity, const std::string& path, const Model& model) {
-  for (const auto row : model.state_import->nodes) {
-    const auto id = model.nodes.id[row], old = identity.row_of_node(id);
-    if (old < 0) refuse_import(path, model, fmt::format("no node {}; import only what both models have", id));
+namespace {
+
+std::string words(const Point& place) { return fmt::format("({:g}, {:g}, {:g})", place[0], place[1], place[2]); }
+
+/// Coordinates are written with the digits that a double needs, so that copies are off by rounding alone.
+bool are_one(const Point& way, const Point& other, const Point& place) {
+  constexpr double rounding = 1e-12;
+  const auto largest = [](const Point& p) { return std::max({std::abs(p[0]), std::abs(p[1]), std::abs(p[2])}); };
+  const double allowed = rounding * std::max(largest(way), largest(place));
+  return largest({way[0] - other[0], way[1] - other[1], way[2] - other[2]}) <= allowed;
+}
+
+}  // namespace
+
+std::vector<Point> refuse_other_nodes(const ModelIdentity& identity, const std::string& path, const Model& model) {
+  const auto& import = *model.state_import;
+  std::vector<std::optional<Point>> ways(import.copies.size());
+  for (const auto row : import.nodes) {
+    const auto* const copy = import.copy_of(row);
+    const auto id = model.nodes.id[row], source = id_there(model, row), old = identity.row_of_node(source);
+    if (old < 0 && copy == nullptr) refuse_import(path, model, fmt::format("no node {}; import only what both models have", id));
+    if (old < 0)
+      refuse_import(path, model, fmt::format("no node {}, from which node {} is to go on; look at SHIFT NODES={}", source, id, copy->node_shift));
     const auto there = identity.coordinates(old), here = model.nodes.coordinates[row];
-    if (there != here)
-      refuse_import(
-          path, model,
-          fmt::format("node {} at ({:g}, {:g}, {:g}), this deck at ({:g}, {:g}, {:g}); both jobs must have the same mesh there", id,
-                      there[0], there[1], there[2], here[0], here[1], here[2]));
+    if (copy == nullptr && there != here)
+      refuse_import(path, model,
+                    fmt::format("node {} at {}, this deck at {}; both jobs must have the same mesh there", id, words(there), words(here)));
+    if (copy == nullptr) continue;
+    auto& way = ways[static_cast<std::size_t>(copy - import.copies.data())];
+    const Point found{here[0] - there[0], here[1] - there[1], here[2] - there[2]};
+    if (!way) way = found;
+    if (!are_one(*way, found, here))
+      refuse_import(path, model,
+                    fmt::format("node {} at {} and this deck node {} of its copy at {}, which is another way than that of the nodes before, {}; "
+                                "a copy is moved as a whole and not turned",
+                                source, words(there), id, words(here), words(*way)));
   }
+  std::vector<Point> found;
+  for (const auto& way : ways) found.push_back(way.value_or(Point{}));
+  return found;
 }
 
 void refuse_other_elements(const ModelIdentity& identity, const std::string& path, const Model& model, ImportedSections sections) {
-  for (const auto& [table_row, row] : model.state_import->elements) {
+  const auto& import = *model.state_import;
+  for (const auto& element : import.elements) {
+    const auto [table_row, row] = element;
     const auto& table = model.elements[table_row];
-    const auto* const old = identity.element(table.type->name, table.id[row]);
-    const auto name = fmt::format("{} element {}", table.type->name, table.id[row]);
+    const auto id = id_there(model, element);
+    const auto* const copy = import.copy_of(element);
+    const auto* const old = identity.element(table.type->name, id);
+    const auto name = fmt::format("{} element {}", table.type->name, id);
     if (old == nullptr) refuse_import(path, model, fmt::format("no {}; import only what both models have", name));
-    if (old->nodes != digest_of_element(model, table, row))
+    if (old->nodes != digest_of_element(model, table, row, copy == nullptr ? 0 : copy->node_shift))
       refuse_import(path, model, fmt::format("{} with other nodes; both jobs must have the same mesh there", name));
     if (sections == ImportedSections::same && old->section != digest_of_section(model, model.sections[table.section[row]]))
       refuse_import(path, model, fmt::format("{} with another section or material; give it the same in both jobs", name));

@@ -54,9 +54,14 @@ class ModelIdentity {
 /// Whether imported elements must have the sections and materials that they had.
 enum class ImportedSections { same, any };
 
+/// Numbers in the other job of what is imported.
+std::int64_t id_there(const Model& model, std::int32_t node_row);
+std::int64_t id_there(const Model& model, ElementRef element);
+
 /// Of what Model::state_import names in the checkpoint at `path`.
 /// @throws InputError where the checkpoint has no such nodes or elements, or others, which the message names
-void refuse_other_nodes(const ModelIdentity& identity, const std::string& path, const Model& model);
+/// @return the way from there to here of each of StateImport::copies
+std::vector<Point> refuse_other_nodes(const ModelIdentity& identity, const std::string& path, const Model& model);
 void refuse_other_elements(const ModelIdentity& identity, const std::string& path, const Model& model, ImportedSections sections);
 /// @return the number of the last step of the checkpoint, counted from 1, where it is finished
 std::int64_t refuse_other_step(const Hdf5File& file, const std::string& path, const Model& model);

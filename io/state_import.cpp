@@ -32,7 +32,7 @@ class Importer {
       file_ = open_checkpoint(path_);
       read_header();
       identity_.emplace(*file_);
-      refuse_other_nodes(*identity_, path_, model_);
+      ways_ = refuse_other_nodes(*identity_, path_, model_);
       refuse_other_elements(*identity_, path_, model_, ImportedSections::same);
       read_rows_of_constraints();
     });
@@ -58,6 +58,7 @@ class Importer {
   void read_header();
   void read_rows_of_constraints();
   void read_nodes(ParallelFile& tables);
+  void move_copies();
   void read_histories(ParallelFile& tables);
   void read_contact(ParallelFile& tables);
   void place_bodies();
@@ -75,6 +76,7 @@ class Importer {
   State& state_;
   std::unique_ptr<Hdf5File> file_;
   std::optional<ModelIdentity> identity_;
+  std::vector<Point> ways_;  // of copies, from there to here
   std::unordered_map<std::int64_t, std::int32_t> row_of_id_;  // of nodes, where bodies go on
   std::int64_t old_step_ = 0;
   std::size_t bodies_that_go_on_ = 0;
@@ -108,18 +110,26 @@ void Importer::read_nodes(ParallelFile& tables) {
   for (std::int32_t node = 0; node < domain_.size(); ++node) {
     if (!is_imported(domain_.node_row[node])) continue;
     nodes.push_back(node);
-    rows.push_back(identity_->row_of_node(model_.nodes.id[domain_.node_row[node]]));
+    rows.push_back(identity_->row_of_node(id_there(model_, domain_.node_row[node])));
   }
   const RowExchange exchange(communicator_, identity_->nodes(), std::move(rows));
   const auto read = [&](const char* name, int columns) { return exchange.from_slab(tables.read(name, exchange, columns), columns); };
   const auto count = static_cast<std::size_t>(domain_.size());
   set_vectors(nodes, read("position", 3), count, state_.position);
+  move_copies();
   set_vectors(nodes, read("velocity", 3), count, state_.velocity);
   if (file_->exists("/rotation")) set_rotations(nodes, read("rotation", rotation_values), state_);
   const auto work = read("work", work_values);
   state_.nodal_work.resize(std::max(state_.nodal_work.size(), count));
   for (std::size_t i = 0; i < nodes.size(); ++i)
     state_.nodal_work[nodes[i]] = unpack_work(&work[i * work_values]);
+}
+
+void Importer::move_copies() {
+  for (std::size_t i = 0; i < import_.copies.size(); ++i)
+    for (const auto row : import_.copies[i].nodes)
+      if (const auto node = domain_.local_node[row]; node >= 0)
+        for (std::size_t c = 0; c < 3; ++c) state_.position[4 * static_cast<std::size_t>(node) + c] += ways_[i][c];
 }
 
 /// Padded lanes repeat the last element of their group.
@@ -140,7 +150,7 @@ void Importer::read_histories(ParallelFile& tables) {
         const ElementRef element{table, groups_[g]->row(e)};
         if (!std::ranges::binary_search(import_.elements, element)) continue;
         lanes.push_back({g, e});
-        rows.push_back(identity_->element(type, model_.elements[table].id[element.row])->row);
+        rows.push_back(identity_->element(type, id_there(model_, element))->row);
       }
     }
     const RowExchange exchange(communicator_, identity_->elements(type), std::move(rows));
@@ -165,7 +175,7 @@ void Importer::read_contact(ParallelFile& tables) {
     std::vector<std::int64_t> rows;
     for (std::size_t point = 0; point < local.size(); ++point) {
       const auto row = domain_.node_row[local[point]];
-      const auto found = old->row_of_slave.find(model_.nodes.id[row]);
+      const auto found = old->row_of_slave.find(id_there(model_, row));
       if (!is_imported(row) || found == old->row_of_slave.end()) continue;
       points.push_back(point);
       rows.push_back(found->second);

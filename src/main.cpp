@@ -33,7 +33,7 @@ namespace {
 enum ExitStatus { completed = 0, different = 1, bad_input = 2, analysis_failed = 3, stopped = 4, system_trouble = 5 };
 
 struct Command {
-  std::string deck, output = ".", last_step, spec, model_file, drive_file, kinematics_file, picture, results, foreign_mesh;
+  std::string deck, output = ".", last_step, spec, model_file, drive_file, kinematics_file, tyre_file, picture, results, foreign_mesh;
   CarChoices car;
   std::string other_results;
   double relative = 0.0;
@@ -218,10 +218,13 @@ std::optional<Model> read_mesh(const std::string& path) {
 int build_car_deck(const Command& command) {
   const auto text = file_loader()(command.spec);
   if (!text) throw InputError(fmt::format("{}:1: error: no such file; give the path of a car's description (TOML)", command.spec));
-  const auto car = build_car(*text, command.spec, {file_loader(), read_mesh}, command.car);
+  auto choices = command.car;
+  choices.inflates_one_tyre = !command.tyre_file.empty();
+  const auto car = build_car(*text, command.spec, {file_loader(), read_mesh}, choices);
   const auto model = write_deck(car.tyres) + car.car;
   write_text(command.model_file, model + car.equilibrium);
   if (!command.drive_file.empty()) write_text(command.drive_file, model + car.drive);
+  if (!command.tyre_file.empty()) write_text(command.tyre_file, write_deck(car.tyre) + car.inflation);
   if (!command.kinematics_file.empty()) write_text(command.kinematics_file, car.kinematics);
   fmt::print("{}", car.report);
   return completed;
@@ -290,6 +293,8 @@ int dispatch(int argc, char** argv) {
   car_command->add_option("spec", command.spec, "Car description (TOML)")->required();
   car_command->add_option("--output", command.model_file, "Deck of the equilibrium to write")->required();
   car_command->add_option("--drive", command.drive_file, "Deck of the drive to write, to be run with --import of the equilibrium");
+  car_command->add_option("--tyre", command.tyre_file,
+                          "Deck to write that seats and inflates one tyre; the equilibrium is then to be run with --import of it");
   car_command->add_option("--kinematics", command.kinematics_file, "Deck to write that moves the axles without tyres");
   car_command->add_option("--obstacle", command.car.obstacle, "Obstacle of the drive, instead of the description's: comfort, pothole or drop")
       ->check(CLI::IsMember({"comfort", "pothole", "drop"}));

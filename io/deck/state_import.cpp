@@ -1,6 +1,11 @@
 // *IMPORT, *IMPORT ELSET, *IMPORT NSET: what starts from the last state of another job. The mesh itself stands in the deck, as it
-// was before any deformation.
+// was before any deformation. ELEMENT SHIFT and SHIFT NODES, of *ELCOPY, say that elements go on from those of other numbers: so that
+// several copies of a part, wherever they stand, start from the state of one.
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <iterator>
+#include <optional>
 
 #include "deck/builder.hpp"
 #include "deck/register.hpp"
@@ -13,7 +18,7 @@ namespace {
 StateImport& state_import(Builder& builder, const Block& block) {
   auto& import = builder.model.state_import;
   if (!import)
-    import = StateImport{.state = true, .update = false, .step = {}, .elements = {}, .nodes = {}, .location = block.location};
+    import = StateImport{.state = true, .update = false, .step = {}, .elements = {}, .nodes = {}, .copies = {}, .location = block.location};
   return *import;
 }
 
@@ -23,19 +28,51 @@ void sort_members(Members& members) {
   members.erase(std::unique(members.begin(), members.end()), members.end());
 }
 
-void add_elements(Builder& builder, const Block& block, StateImport& import) {
+template <class Members>
+void merge_members(const Members& members, Members& all) {
+  all.insert(all.end(), members.begin(), members.end());
+  sort_members(all);
+}
+
+/// What a block imports goes on from members of numbers less its shifts.
+void take_over(Builder& builder, const Block& block, ImportedCopy part, StateImport& import) {
+  sort_members(part.elements);
+  sort_members(part.nodes);
+  const bool is_copy = part.node_shift != 0 || part.element_shift != 0;
+  const auto refuse_twice = [&](const auto& member, const auto& all, const std::string& name) {
+    if (!std::ranges::binary_search(all, member)) return false;
+    const auto* const before = import.copy_of(member);
+    if (before == nullptr ? !is_copy : before->node_shift == part.node_shift && before->element_shift == part.element_shift) return false;
+    builder.error(block, block.location, fmt::format("{} is imported twice, from different numbers of the other job; name it once", name));
+    return true;
+  };
+  const auto& model = builder.model;
+  for (const auto& element : part.elements)
+    if (refuse_twice(element, import.elements, fmt::format("element {}", model.element_name(element)))) return;
+  for (const auto node : part.nodes)
+    if (refuse_twice(node, import.nodes, fmt::format("node {}", model.node_name(node)))) return;
+  merge_members(part.elements, import.elements);
+  merge_members(part.nodes, import.nodes);
+  if (is_copy) import.copies.push_back(std::move(part));
+}
+
+ImportedCopy elements_of(Builder& builder, const Block& block) {
+  ImportedCopy part;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     for (int field = 0; field < row.size(); ++field)
-      if (row.has(field)) builder.elements_of(row.text(field), block, line.location, import.elements);
+      if (row.has(field)) builder.elements_of(row.text(field), block, line.location, part.elements);
   }
-  sort_members(import.elements);
-  for (const auto& element : import.elements) {
+  for (const auto& element : part.elements) {
     const auto& table = builder.model.elements[element.table];
     const auto first = table.connectivity.begin() + static_cast<std::ptrdiff_t>(element.row) * table.type->nodes;
-    import.nodes.insert(import.nodes.end(), first, first + table.type->nodes);
+    std::copy_if(first, first + table.type->nodes, std::back_inserter(part.nodes), [](std::int32_t node) { return node >= 0; });
   }
-  sort_members(import.nodes);
+  return part;
+}
+
+bool is_of_one_state(const StateImport& import, bool state, bool update, std::optional<std::int32_t> step) {
+  return import.state == state && import.update == update && import.step == step;
 }
 
 void read_import(Builder& builder, const Block& block) {
@@ -55,30 +92,37 @@ void read_import(Builder& builder, const Block& block) {
       builder.error(block, block.location,
                     std::string(parameter) + ": a checkpoint holds the last state of its job alone; leave it out, or end that job there");
   if (block.lines.empty()) builder.error(block, block.location, "sets of elements to import are missing; name them on data lines");
+  const auto step = block.has("STEP") ? std::optional(static_cast<std::int32_t>(block.integer("STEP", 0))) : std::nullopt;
+  if (const auto& before = builder.model.state_import; before && !is_of_one_state(*before, state, update, step))
+    builder.error(block, block.location,
+                  fmt::format("STATE, UPDATE and STEP differ from those of {}; one state is imported, give them alike", builder.model.where(before->location)));
   auto& import = state_import(builder, block);
   import.state = state;
   import.update = update;
-  if (block.has("STEP")) import.step = static_cast<std::int32_t>(block.integer("STEP", 0));
-  add_elements(builder, block, import);
+  import.step = step;
+  auto part = elements_of(builder, block);
+  part.element_shift = block.integer("ELEMENT SHIFT", 0);
+  part.node_shift = block.integer("SHIFT NODES", 0);
+  take_over(builder, block, std::move(part), import);
 }
 
-void read_elements(Builder& builder, const Block& block) { add_elements(builder, block, state_import(builder, block)); }
+void read_elements(Builder& builder, const Block& block) { take_over(builder, block, elements_of(builder, block), state_import(builder, block)); }
 
 void read_nodes(Builder& builder, const Block& block) {
-  auto& import = state_import(builder, block);
+  ImportedCopy part;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     for (int field = 0; field < row.size(); ++field)
-      if (row.has(field)) builder.nodes_of(row.text(field), block, line.location, import.nodes);
+      if (row.has(field)) builder.nodes_of(row.text(field), block, line.location, part.nodes);
   }
-  sort_members(import.nodes);
+  take_over(builder, block, std::move(part), state_import(builder, block));
 }
 
 const RegisterKeyword import_keyword({
     .keyword = "IMPORT",
     .phase = Phase::surfaces,
     .parameters = {choice("STATE", {"YES", "NO"}), required(choice("UPDATE", {"YES", "NO"})), integer("STEP"), integer("INCREMENT"),
-                   integer("INTERVAL"), integer("ITERATION")},
+                   integer("INTERVAL"), integer("ITERATION"), integer("ELEMENT SHIFT"), integer("SHIFT NODES")},
     .handler = read_import,
 });
 

@@ -13,10 +13,11 @@ rm -f "$output/kinematics.h5" "$output/drive.h5"    # the report tells of this j
   --kinematics "$output/kinematics.inp" >/dev/null    # the axles' own kinematics: nothing else gives way
 "${BALOCCO_MPIRUN[@]}" -n 1 "$BALOCCO_BUILD/balocco" run "$output/kinematics.inp" --output "$output"
 "$BALOCCO_BUILD/balocco" car "$spec" --obstacle "$obstacle" --fidelity "$fidelity" --output "$output/car.inp" \
-  --drive "$output/drive.inp" | tee "$output/car.txt"
+  --drive "$output/drive.inp" --tyre "$output/tyre.inp" | tee "$output/car.txt"
 "$PYTHON" "$balocco_root/jobs/report/car_picture.py" "$output/car.inp" "$output/car.png"
 "$PYTHON" "$balocco_root/jobs/report/car_kinematics.py" "$output/kinematics.h5" | tee "$output/kinematics.txt"
-"${BALOCCO_MPIRUN[@]}" -n "$ranks" "$BALOCCO_BUILD/balocco" run "$output/car.inp" --output "$output"
+"${BALOCCO_MPIRUN[@]}" -n "$ranks" "$BALOCCO_BUILD/balocco" run "$output/tyre.inp" --output "$output"    # one tyre is inflated for all four
+"${BALOCCO_MPIRUN[@]}" -n "$ranks" "$BALOCCO_BUILD/balocco" run "$output/car.inp" --import "$output/tyre.ckpt.h5" --output "$output"
 "$PYTHON" "$balocco_root/jobs/report/car_equilibrium.py" "$output/car.h5" | tee "$output/equilibrium.txt"
 "${BALOCCO_MPIRUN[@]}" -n "$ranks" "$BALOCCO_BUILD/balocco" run "$output/drive.inp" --import "$output/car.ckpt.h5" --output "$output"
 "$PYTHON" "$balocco_root/jobs/report/car_loads.py" "$output/drive.inp" "$output/drive.h5" "$output/loads.csv" | tee "$output/loads.txt"

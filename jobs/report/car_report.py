@@ -69,7 +69,8 @@ def describe_equilibrium(page, folder, results):
         along = lambda variable: float(np.ravel(car_loads.history_of(file, step, "element", name, variable)[-1])[0])
         rows.append((words(name), along("CU"), along("CTF")))
     page.table(("spring or damper", "longer than as drawn, mm", "force along it, N"), rows)
-    page.table(("step", "increments", "iterations", "seconds"), steps_of(os.path.join(folder, "car.sta")))
+    jobs = [os.path.join(folder, name) for name in ("tyre.sta", "car.sta")]  # one tyre may have been inflated for all
+    page.table(("step", "increments", "iterations", "seconds"), [step for job in jobs if os.path.exists(job) for step in steps_of(job)])
 
 
 def describe_modes(page, results):

@@ -20,6 +20,18 @@ std::int32_t Model::general_step_before(std::int32_t step) const {
   return step;
 }
 
+const ImportedCopy* StateImport::copy_of(std::int32_t node_row) const {
+  const auto holds = [&](const ImportedCopy& copy) { return std::ranges::binary_search(copy.nodes, node_row); };
+  const auto found = std::ranges::find_if(copies, holds);
+  return found == copies.end() ? nullptr : &*found;
+}
+
+const ImportedCopy* StateImport::copy_of(ElementRef element) const {
+  const auto holds = [&](const ImportedCopy& copy) { return std::ranges::binary_search(copy.elements, element); };
+  const auto found = std::ranges::find_if(copies, holds);
+  return found == copies.end() ? nullptr : &*found;
+}
+
 std::string Model::node_name(std::int32_t row) const {
   if (nodes.instance.empty()) return fmt::format("{}", nodes.id[row]);
   const Instance& instance = instances[nodes.instance[row]];

@@ -275,6 +275,13 @@ struct Units {
   std::string length, mass, time;  // empty: not declared
 };
 
+/// What goes on from nodes and elements of other numbers, which may stand elsewhere (ELEMENT SHIFT, SHIFT NODES of *IMPORT).
+struct ImportedCopy {
+  std::int64_t element_shift = 0, node_shift = 0;  // numbers here less numbers there
+  std::vector<ElementRef> elements;                // sorted
+  std::vector<std::int32_t> nodes;                 // rows, sorted
+};
+
 /// What starts from the last state of another job (*IMPORT); everything else starts as the deck says.
 struct StateImport {
   bool state = true;    // STATE: stresses and histories are imported, not the deformed mesh alone
@@ -282,7 +289,12 @@ struct StateImport {
   std::optional<std::int32_t> step;   // number of the step that the state is of
   std::vector<ElementRef> elements;   // sorted
   std::vector<std::int32_t> nodes;    // rows, sorted: those of the elements among them
+  std::vector<ImportedCopy> copies;   // of these, what has other numbers there; none is in two of them
   Location location;
+
+  /// Copy that a node or element belongs to; null: it has the same number in both jobs.
+  const ImportedCopy* copy_of(std::int32_t node_row) const;
+  const ImportedCopy* copy_of(ElementRef element) const;
 };
 
 /// *RESTART, READ: the steps before are those of another job, which left its checkpoint when, or while, it did the last of them.

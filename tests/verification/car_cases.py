@@ -158,15 +158,17 @@ def kinematics(balocco, ranks, folder):
 
 
 def equilibrium(balocco, ranks, folder):
-    """The quick job's car, rigid on four coarse tyres: seated, inflated, weighed, set on the road and let go. It stands: its wheels
-    carry its weight, each front one about 4000 N as in the paper, within some millimetres of the height that its springs were made
+    """The quick job's car, rigid on four coarse tyres, which start from the state of one: weighed, set on the road and let go. It
+    stands: its wheels carry its weight, each front one about 4000 N as in the paper, within some millimetres of the height that its springs were made
     for; it bounces at 1.1 to 1.5 Hz, its wheels hop at 10 to 15 Hz (the class: 10 to 14; the main job's rear ones: 14.7). Then it
     drives over the obstacle."""
     os.makedirs(folder, exist_ok=True)
-    deck, _ = build(balocco, folder, text=quick(150.0))
+    tyre = os.path.join(folder, "tyre.inp")
+    deck, _ = build(balocco, folder, "--tyre", tyre, text=quick(150.0))
+    run(balocco, ranks, folder, "tyre", open(tyre).read())
     checked = subprocess.run([balocco, "check", deck], check=True, stdout=subprocess.PIPE, text=True).stdout
     mass = float(re.search(r"(?m)^Mass ([\d.e+]+),", checked)[1])
-    results = run(balocco, ranks, folder, "car", open(deck).read())
+    results = run(balocco, ranks, folder, "car", open(deck).read(), "--import", os.path.join(folder, "tyre.ckpt.h5"))
     last = car_equilibrium.last_step(results)["history"]
     history = lambda name, variable: last[f"node_{results['mesh/node/id'][results['mesh/set/node/' + name][0]]}/{variable}"][-1]
     loads = {name: last[name]["CFN"][-1][2] for name in last if name.startswith("contact_TREAD")}

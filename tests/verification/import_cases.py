@@ -149,6 +149,43 @@ def importing_the_mesh(balocco, folder):
     check("another step is told", float("not of the end of step 2" in told), 1.0, 0.0)
 
 
+def importing_copies(balocco, folder):
+    """Columns elsewhere, with other numbers, start from the state of one: its displacements and forces, but for rounding."""
+    def column(shift, place):
+        nodes = [f"{shift + 4 * k + i + 1}, {place[0] + x}, {place[1] + y}, {place[2] + 0.5 * k}"
+                 for k in range(3) for i, (x, y) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1)))]
+        return "\n".join(["*NODE", *nodes, f"*NSET, NSET=BOTTOM\n{', '.join(str(shift + i) for i in range(1, 5))}",
+                          f"*NSET, NSET=TOP\n{', '.join(str(shift + i) for i in range(9, 13))}", f"*ELEMENT, TYPE=C3D8R, ELSET=COLUMN_{shift}",
+                          *[f"{shift + e + 1}, " + ", ".join(str(shift + 4 * e + i) for i in range(1, 9)) for e in range(2)],
+                          f"*SOLID SECTION, ELSET=COLUMN_{shift}, MATERIAL=RUBBER"]) + "\n"
+
+    Job("one", balocco, "1", folder).run(COLUMN + pulled(0.1))
+    columns = column(0, (0, 0, 0)) + column(20, (3.3, -0.7, 0.1)) + column(60, (-2.9, 5.1, 7.7))
+    rubber = COLUMN[COLUMN.index("*MATERIAL"):]
+    asked = columns + rubber + "".join(f"*IMPORT, UPDATE=NO, STEP=1, ELEMENT SHIFT={shift}, SHIFT NODES={shift}\nCOLUMN_{shift}\n" for shift in (0, 20, 60))
+    still = "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n*BOUNDARY, FIXED\nBOTTOM, 1, 3\nTOP, 1, 3\n*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE\n*NODE OUTPUT\nU, RF\n*END STEP\n"
+    source = ("--import", str(pathlib.Path(folder) / "one.ckpt.h5"))
+    for ranks in ("1", "2"):
+        job = Job(f"copies_{ranks}", balocco, ranks, folder)
+        job.run(asked + still, arguments=source)
+        u = job.frame("U", 0).reshape(3, 12, 3)
+        check(f"stretched, {ranks} ranks", u[0, 8:, 2].mean(), 0.1, 1e-9)
+        check("copies too", np.abs(u - u[0]).max(), 0.0, 1e-14)
+        force = job.frame("RF", 0).reshape(3, 12, 3)
+        check("force that holds it", force[0, 8:, 2].sum(), 1e6 * 0.5 * (1.1**2 - 1.0) * 1.1, 1e-9)
+        check("and copies", np.abs(force - force[0]).max() / np.abs(force).max(), 0.0, 1e-12)
+        check("imbalance", imbalance(job), 0.0, 1e-8)
+        check("they rest", np.abs(job.frame("U", -1).reshape(3, 12, 3) - u).max(), 0.0, 1e-8)
+
+    def told(name, text, words):
+        check(name, float(words in Job("refused", balocco, "2", folder).run(text + still, expected_status=2, arguments=source)), 1.0, 0.0)
+
+    told("what has no source", asked.replace("SHIFT NODES=20", "SHIFT NODES=-100"), "no node 121, from which node 21 is to go on; look at SHIFT NODES=-100")
+    told("a copy that is not moved as a whole", asked.replace("\n64, -2.9, 6.1, 7.7", "\n64, -2.9, 6.2, 7.7"), "a copy is moved as a whole")
+    told("a copy of two", asked + "*IMPORT ELSET\nCOLUMN_20\n", "element 21 is imported twice")
+    told("two states", asked + "*IMPORT, UPDATE=NO, STEP=2\nCOLUMN_0\n", "STATE, UPDATE and STEP differ from those of")
+
+
 def bodies_keep_their_nodes(balocco, folder):
     """Nodes that a step of the other job has tied to a body go on with it, though the new deck does not say so."""
     foot = "*NODE\n" + "".join(f"{100 + i}, {x}, {y}, -1.\n{110 + i}, {x}, {y}, -2.\n" for i, (x, y) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))))
@@ -166,5 +203,5 @@ def bodies_keep_their_nodes(balocco, folder):
 
 
 if __name__ == "__main__":
-    {case.__name__: case for case in (driving_from_an_equilibrium, importing_parts, importing_the_mesh, bodies_keep_their_nodes)}[sys.argv[1]](*sys.argv[2:])
+    {case.__name__: case for case in (driving_from_an_equilibrium, importing_parts, importing_the_mesh, importing_copies, bodies_keep_their_nodes)}[sys.argv[1]](*sys.argv[2:])
     sys.exit(1 if failures else 0)

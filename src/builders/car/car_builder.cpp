@@ -123,8 +123,8 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
       spec.title + ". Units mm, ms, g, N, MPa; x forward, y left, z up; the origin lies on the road below the front axle.";
   constexpr double kinematic_travel = 50.0;  // mm up and down: within the stops
   constexpr std::int64_t first_tyre_id = 2'000'000;  // behind any body's nodes and elements
-  const auto facts = add_tyres(tyre, spec.chassis.road, {.centre = wheel_centres(spec), .clearance = spec.chassis.road.clearance},
-                               first_tyre_id, car.tyres);
+  const WheelPlaces places{.centre = wheel_centres(spec), .clearance = spec.chassis.road.clearance};
+  const auto facts = add_tyres(tyre, spec.chassis.road, places, first_tyre_id, car.tyres);
 
   check_tyre(spec, tyre, facts);
   check_room(spec, mesh, facts);
@@ -133,7 +133,14 @@ CarDeck build_car(const std::string& toml_text, const std::string& file_name, co
   const auto wheel = wheel_of(spec, tyre, files);
   car.car = car_without_tyres(spec, mesh, weights, {.mesh = wheel, .rims = strikes_rim(tyre)});
   DeckText equilibrium, drive, kinematics;
-  write_equilibrium(spec, tyre, facts, droop(spec, weights), equilibrium);
+  write_equilibrium(spec, tyre, facts, droop(spec, weights), choices.inflates_one_tyre ? Inflation::of_one : Inflation::of_all, equilibrium);
+  if (choices.inflates_one_tyre) {
+    DeckText inflation;
+    car.tyre.heading = spec.title + ": a tyre on its wheel. Units mm, ms, g, N, MPa";
+    add_first_tyre(tyre, places, first_tyre_id, car.tyre);
+    write_tyre_steps(tyre, facts, inflation);
+    car.inflation = inflation.text();
+  }
   write_drive(spec, mesh, tyre, facts, wheel_loads(spec, weights, facts.mass), drive);
   write_kinematics(spec, kinematic_travel, kinematics);
   car.equilibrium = equilibrium.text();

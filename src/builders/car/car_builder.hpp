@@ -13,6 +13,8 @@ namespace balocco {
 struct CarDeck {
   Model tyres;
   std::string car, equilibrium, drive;
+  Model tyre;              // where the equilibrium starts from a tyre that is inflated alone: that one, with its steps
+  std::string inflation;
   std::string kinematics;  // a whole deck: the axles are moved, without tyres
   std::string report;  // masses, inertias and dimensions
 };

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <span>
+#include <utility>
 
 #include "builders/car/rail_sections.hpp"
 #include "builders/car/wheels.hpp"
@@ -80,10 +82,26 @@ void write_wheels_density(const WheelSpec& wheel, DeckText& deck) {
 }
 
 /// Of all tyres as their description has it, or of some as the car's has it.
-void inflate(const CarSpec& spec, double pressure, bool as_they_stand, DeckText& deck) {
-  deck.line("*DSLOAD");
+void inflate(const CarSpec& spec, double pressure, bool as_they_stand, DeckText& deck, const char* amplitude = "") {
+  deck.line("*DSLOAD{}", amplitude);
   for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel)
     deck.line("LINER_{}, P, {:g}", wheel_names[wheel], as_they_stand ? spec.pressure[wheel].value_or(pressure) : pressure);
+}
+
+void write_seating(std::span<const char* const> wheels, double shift, DeckText& deck) {
+  for (const auto* wheel : wheels)
+    for (const auto& [side, sign] : {std::pair{"LEFT", -1.0}, std::pair{"RIGHT", 1.0}})
+      deck.line("BEAD_{}_{}, 1, 1\nBEAD_{}_{}, 2, 2, {:g}\nBEAD_{}_{}, 3, 3", side, wheel, side, wheel, sign * shift, side, wheel);
+}
+
+void write_static_step(const char* name, double first, double largest, DeckText& deck) {
+  deck.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}", name, first * period, period, 1e-5 * period,
+            largest * period);
+}
+
+/// Rigid arms between a wheel's beads and what carries them.
+void tie_beads(const std::string& wheel, const std::string& carrier, DeckText& deck) {
+  for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*RIGID BODY, REF NODE={}, TIE NSET=BEAD_{}_{}", carrier, side, wheel);
 }
 
 /// Writes the steps of the equilibrium; each says all that acts in it.
@@ -94,14 +112,8 @@ class StepText {
 
   void seat() {
     begin("SEAT", 0.25, 0.5);
-    deck_.line("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE");
-    write_road_pairs(deck_);
-    write_rim_pairs(tyre_, deck_);
     deck_.line("*BOUNDARY");
-    for (const auto* wheel : wheel_names)
-      for (const auto& [side, sign] : {std::pair{"LEFT", -1.0}, std::pair{"RIGHT", 1.0}})
-        deck_.line("BEAD_{}_{}, 1, 1\nBEAD_{}_{}, 2, 2, {:g}\nBEAD_{}_{}, 3, 3", side, wheel, side, wheel, sign * facts_.seat_shift,
-                   side, wheel);
+    write_seating(wheel_names, facts_.seat_shift, deck_);
     hold_hubs(1, 6);
     hold_roads(0.0);
     hold_body();
@@ -111,15 +123,25 @@ class StepText {
 
   void inflate_tyres() {
     begin("INFLATE", 0.1, 0.25);
-    for (const auto* wheel : wheel_names)
-      for (const auto* side : {"LEFT", "RIGHT"})
-        deck_.line("*RIGID BODY, REF NODE={}, TIE NSET=BEAD_{}_{}", bead_carrier(spec_, wheel), side, wheel);
+    tie_all_beads();
     deck_.line("*BOUNDARY, OP=NEW");
     hold_hubs(1, 6);
     hold_roads(0.0);
     hold_body();
     inflate(tyre_.statics.pressure);
     end();
+  }
+
+  /// All tyres start from the one that another job has inflated: the pressure is there at once.
+  void import_tyres() {
+    for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {
+      const auto behind = static_cast<std::int64_t>(wheel);
+      deck_.line("*IMPORT, STATE=YES, UPDATE=NO, STEP=2, ELEMENT SHIFT={}, SHIFT NODES={}\nTYRE_{}", behind * facts_.elements,
+                 behind * facts_.nodes, wheel_names[wheel]);
+    }
+    deck_.line("*AMPLITUDE, NAME=AT_ONCE\n0., 1., {:g}, 1.", period);
+    amplitude_ = ", AMPLITUDE=AT_ONCE";
+    imported_ = true;
   }
 
   void weigh() {
@@ -173,7 +195,7 @@ class StepText {
     deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 6", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
     hold_hubs(5, 5);
     hold_roads(spec_.chassis.road.clearance - droop_ - std::min(least_fall, spec_.chassis.drive.height));
-    car::inflate(spec_, tyre_.statics.pressure, true, deck_);
+    car::inflate(spec_, tyre_.statics.pressure, true, deck_, amplitude_);
     write_restart();
     end();
   }
@@ -187,8 +209,15 @@ class StepText {
   double rise() const { return facts_.outer_radius + spec_.chassis.road.clearance - spec_.profile.wheel_height; }
 
   void begin(const char* name, double first, double largest) {
-    deck_.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}", name, first * period, period,
-               1e-5 * period, largest * period);
+    write_static_step(name, first, largest, deck_);
+    if (std::exchange(begun_, true)) return;
+    deck_.line("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE");
+    write_road_pairs(deck_);
+    write_rim_pairs(tyre_, deck_);
+    if (imported_) tie_all_beads();
+  }
+  void tie_all_beads() {
+    for (const auto* wheel : wheel_names) tie_beads(wheel, bead_carrier(spec_, wheel), deck_);
   }
   void hold_hubs(int first, int last) {
     for (const auto* wheel : wheel_names) deck_.line("HUB_{}, {}, {}", wheel, first, last);
@@ -198,7 +227,7 @@ class StepText {
       deck_.line("ROAD_{}, 1, 2\nROAD_{}, 3, 3, {:g}\nROAD_{}, 4, 6", side, side, up, side);
   }
   void hold_body() { car::hold_body(spec_, deck_); }
-  void inflate(double pressure) { car::inflate(spec_, pressure, false, deck_); }
+  void inflate(double pressure) { car::inflate(spec_, pressure, false, deck_, amplitude_); }
   void let_go() {
     deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 1", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
     hold_roads(rise());
@@ -210,6 +239,7 @@ class StepText {
     deck_.line("*OUTPUT, FIELD, FREQUENCY=1000000\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, FREQUENCY=1");
     write_history(deck_);
     deck_.line("*ENERGY OUTPUT\nALLIE, ALLWK, ETOTAL\n*END STEP");
+    amplitude_ = "";
   }
 
   const CarSpec& spec_;
@@ -217,6 +247,8 @@ class StepText {
   const TyreFacts& facts_;
   double droop_;
   DeckText& deck_;
+  bool begun_ = false, imported_ = false;
+  const char* amplitude_ = "";  // of the pressure in the next step
 };
 
 }  // namespace
@@ -238,17 +270,37 @@ void write_fidelity(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck) {
   }
 }
 
-void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, double droop, DeckText& deck) {
+void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, double droop, Inflation inflation, DeckText& deck) {
   deck.chapter("EQUILIBRIUM");
   StepText steps(spec, tyre, facts, droop, deck);
-  steps.seat();
-  steps.inflate_tyres();
+  if (inflation == Inflation::of_one) {
+    steps.import_tyres();
+  } else {
+    steps.seat();
+    steps.inflate_tyres();
+  }
   if (spec.chassis.drive.height > 0.0) return steps.fall();
   steps.weigh();
   steps.touch();
   steps.stand();
   if (std::ranges::any_of(spec.pressure, [](const auto& pressure) { return pressure.has_value(); })) steps.deflate();
   steps.ride();
+}
+
+void write_tyre_steps(const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck) {
+  const std::string wheel = wheel_names[0], hub = "HUB_" + wheel;
+  const auto load = [&](double pressure) {
+    deck.line("*DSLOAD\nLINER_{}, P, {:g}\n*OUTPUT, FIELD, FREQUENCY=1000000\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS\n*OUTPUT, HISTORY, "
+              "FREQUENCY=1\n*NODE OUTPUT, NSET={}\nU, RF\n*RESTART, WRITE, FREQUENCY=1000000\n*END STEP", wheel, pressure, hub);
+  };
+  write_static_step("SEAT", 0.25, 0.5, deck);
+  deck.line("*BOUNDARY\n{}, 1, 6", hub);
+  write_seating(std::span(wheel_names).first(1), facts.seat_shift, deck);
+  load(tyre.statics.seating_pressure);
+  write_static_step("INFLATE", 0.1, 0.25, deck);
+  tie_beads(wheel, hub, deck);
+  deck.line("*BOUNDARY, OP=NEW\n{}, 1, 6", hub);
+  load(tyre.statics.pressure);
 }
 
 void write_kinematics(const CarSpec& spec, double travel, DeckText& deck) {

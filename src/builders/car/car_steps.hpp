@@ -13,9 +13,15 @@ namespace balocco::car {
 /// The rigid parts of each assembly as one rigid body: BODY_REFERENCE, SUBFRAME_REFERENCE.
 void write_fidelity(const CarSpec& spec, const BodyMesh& mesh, DeckText& deck);
 
+/// Where tyres are seated and inflated: all of them in the car's own job, or one in a job of its own, from whose state all start.
+enum class Inflation { of_all, of_one };
+
 /// Seating and inflation with all held; gravity and the springs' load with the wheels held; the road rises; the car stands free. Before
 /// a fall, instead: no weight, and wheels that hang lower by about `droop` mm.
-void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, double droop, DeckText& deck);
+void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, double droop, Inflation inflation, DeckText& deck);
+
+/// Seating and inflation of the front left tyre on its hub, for all four.
+void write_tyre_steps(const TyreSpec& tyre, const TyreFacts& facts, DeckText& deck);
 
 /// The axles moved by their wheels' centres with the body held, without tyres: both wheels up, both down, one up and one down, by
 /// `travel` mm. Hubs neither spin nor are held along or across.
