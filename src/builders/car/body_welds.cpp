@@ -1,6 +1,8 @@
 // What is welded to what.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "builders/car/body_parts.hpp"
 
 namespace balocco::car {
@@ -121,8 +123,9 @@ constexpr Joined joined[]{
 }  // namespace
 
 std::vector<WeldLine> weld_body(const CarSpec& spec, BodyMesh& mesh) {
-  // An edge finds the nearest node of the sheet that it stands on: half a mesh size away and more in the sheet's plane.
-  const double on_flange = 0.25 * spec.mesh_size + 2.0, at_edge = 0.5 * spec.mesh_size + 10.0;
+  // An edge finds the nearest node of the sheet that it stands on: half a mesh size away and more in the sheet's plane. Sheets are drawn
+  // up to some 20 mm apart, however fine the mesh.
+  const double size = std::max(spec.mesh_size, 40.0), on_flange = 0.25 * size + 2.0, at_edge = 0.5 * size + 10.0;
   std::vector<WeldLine> lines;
   for (const auto& [first, second, meeting] : joined)
     lines.push_back({first, second, mesh.weld(first, second, meeting == Meeting::flange ? on_flange : at_edge, spec.weld_pitch)});
