@@ -1,5 +1,6 @@
 # The main job: the semi-flexible car stands on its tyres, then drives over the comfort obstacle. BALOCCO_OBSTACLE=pothole: with its left
-# wheels through the pothole; BALOCCO_FIDELITY=rigid or complete: with less or all of it deforming. Its report is report.html there.
+# wheels through the pothole; =drop: it falls on its wheels instead, from 0.5 m; BALOCCO_FIDELITY=rigid or complete: with less or all of
+# it deforming. Its report is report.html there.
 # Sourced by jobs/run.sh with the number of ranks and the folder of the results.
 ranks=$1
 obstacle=${BALOCCO_OBSTACLE:-comfort}

@@ -20,6 +20,12 @@ def last(file, name, variable):
     return last_step(file)[f"history/node_{node}/{variable}"][-1]
 
 
+def falls(file):
+    """The last step is the state in which a fall begins."""
+    name = last_step(file).attrs["name"]
+    return (name.decode() if isinstance(name, bytes) else name) == "FALL"
+
+
 def wheel_loads(file):
     """What the road carries below each wheel, N."""
     history = last_step(file)["history"]
@@ -29,6 +35,8 @@ def wheel_loads(file):
 
 def main():
     file = h5py.File(sys.argv[1])
+    if falls(file):
+        print("it falls: without weight, its wheels on their rebound stops")
     loads = wheel_loads(file)
     for wheel in WHEELS:
         moved = last(file, "HUB_" + wheel, "U")

@@ -3,6 +3,7 @@
 import numpy as np
 
 import car_figures
+import car_flights
 import car_loads
 from report import smooth
 
@@ -164,6 +165,9 @@ def of_drop(columns, drive, step, fidelity):
         travel = min(float(columns[f"{part}_{side}_travel"].min()) for side in ("left", "right"))
         rows.append((f"{part.replace('_', ' ')}", f"{-travel:.0f} mm shorter than as drawn, with "
                      f"{kilonewtons([f'{part}_{side}_force' for side in ('left', 'right')])}"))
+    height, time = car_flights.clearance(drive, step)
+    rows.append(("lowest sheet of the car above the road", f"{height:.0f} mm at {time:.0f} ms" +
+                 ("" if height > 0.0 else ": it would strike the road, which touches tyres alone here")))
     for title, part in (("strut houses", "STRUT_HOUSE"), ("subframe", "SUBFRAME")):
         rows.append((title, stress_over(drive, step, (part,), fidelity == "rigid")))
     return rows

@@ -1,4 +1,4 @@
-"""When wheels are off the road, what it carries below them, and how a fall ends."""
+"""When wheels are off the road, what it carries below them, how a fall ends and how near the body comes to the road."""
 
 import numpy as np
 
@@ -32,6 +32,17 @@ def rows(step):
         away = "never" if longest is None else f"{len(spans)}, the longest from {longest[0]:.0f} to {longest[1]:.0f} ms"
         found.append((words(wheel), float(force.max()), f"{time[np.argmax(force)]:.1f}", away, float(force[-1])))
     return found
+
+
+def clearance(results, step):
+    """Least height of the sheets of the car above the level road over the frames, mm, and when."""
+    sheets = np.unique(np.concatenate([nodes.ravel() for kind, nodes in results.connectivity.items() if kind in ("S4R", "S3R")]))
+    road, level = results.node_sets["ROAD_LEFT"][0], results.surfaces["ROAD_LEFT_SURFACE"].origin[2]
+    lowest = []
+    for frame in step.frames:
+        moved = frame.node("U")[:, 2].astype(float)
+        lowest.append((float((results.coordinates[sheets, 2] + moved[sheets]).min()) - level - moved[road], frame.step_time))
+    return min(lowest)
 
 
 class Landing:

@@ -62,6 +62,8 @@ def describe_equilibrium(page, folder, results):
     page.table(("wheel", "carries, N", "centre moved x, mm", "y, mm", "z, mm"),
                [(words(wheel), loads[wheel], *moved("HUB_" + wheel)) for wheel in WHEELS])
     roads = abs(sum(float(car_equilibrium.last(file, f"ROAD_{side}", "RF")[2]) for side in ("LEFT", "RIGHT")))
+    if car_equilibrium.falls(file):
+        page.text("So the car falls: without weight, its wheels on their rebound stops.")
     page.text(f"The wheels carry {sum(loads.values()):.3f} N together; the roads are held by {roads:.3f} N.")
     page.table(("mount of the body", "moved up, mm"), [(words(name), moved(name)[2]) for name in car_modes.MOUNTS])
     step, rows = car_equilibrium.last_step(file), []

@@ -251,6 +251,7 @@ void read_pressure(SpecTable& top, CarSpec& spec) {
     const double pressure = table.number(name, Bounds::not_negative("MPa"), 0.0);
     if (table.has(name)) spec.pressure[wheel] = pressure;
   }
+  spec.pressure_loss_time = table.number("loss_time", Bounds::positive("ms"));
   table.refuse_unknown();
 }
 

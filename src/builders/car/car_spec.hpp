@@ -83,7 +83,8 @@ struct CarSpec {
   std::string file_name, title;
   std::string fidelity;  // complete, semi-flexible or rigid
   std::string tyre, tyre_where;  // path of the tyre's description, and where it stands for messages
-  std::array<std::optional<double>, 4> pressure;  // MPa in tyres that stand and drive with another than their description's
+  std::array<std::optional<double>, 4> pressure;  // MPa that is left in tyres which lose their air as the drive begins
+  double pressure_loss_time = 0.0;                // ms in which they do
   double mesh_size = 0.0, weld_pitch = 0.0;  // mm
   ProfileSpec profile;
   BodySpec body;

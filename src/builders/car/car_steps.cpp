@@ -81,13 +81,6 @@ void write_wheels_density(const WheelSpec& wheel, DeckText& deck) {
   }
 }
 
-/// Of all tyres as their description has it, or of some as the car's has it.
-void inflate(const CarSpec& spec, double pressure, bool as_they_stand, DeckText& deck, const char* amplitude = "") {
-  deck.line("*DSLOAD{}", amplitude);
-  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel)
-    deck.line("LINER_{}, P, {:g}", wheel_names[wheel], as_they_stand ? spec.pressure[wheel].value_or(pressure) : pressure);
-}
-
 void write_seating(std::span<const char* const> wheels, double shift, DeckText& deck) {
   for (const auto* wheel : wheels)
     for (const auto& [side, sign] : {std::pair{"LEFT", -1.0}, std::pair{"RIGHT", 1.0}})
@@ -172,18 +165,9 @@ class StepText {
   /// Free wheels let the car roll along: that alone is held, and hardly pulls; all else is held by friction.
   void stand() {
     begin("STAND", 0.1, 0.25);
-    let_go();
+    deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 1", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
+    hold_roads(rise());
     inflate(tyre_.statics.pressure);
-    weight();
-    write_restart();
-    end();
-  }
-
-  /// Tyres lose their air below the standing car.
-  void deflate() {
-    begin("DEFLATE", 0.05, 0.1);
-    let_go();
-    car::inflate(spec_, tyre_.statics.pressure, true, deck_);
     weight();
     write_restart();
     end();
@@ -195,7 +179,7 @@ class StepText {
     deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 6", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
     hold_hubs(5, 5);
     hold_roads(spec_.chassis.road.clearance - droop_ - std::min(least_fall, spec_.chassis.drive.height));
-    car::inflate(spec_, tyre_.statics.pressure, true, deck_, amplitude_);
+    inflate(tyre_.statics.pressure);
     write_restart();
     end();
   }
@@ -227,10 +211,9 @@ class StepText {
       deck_.line("ROAD_{}, 1, 2\nROAD_{}, 3, 3, {:g}\nROAD_{}, 4, 6", side, side, up, side);
   }
   void hold_body() { car::hold_body(spec_, deck_); }
-  void inflate(double pressure) { car::inflate(spec_, pressure, false, deck_, amplitude_); }
-  void let_go() {
-    deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 1", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
-    hold_roads(rise());
+  void inflate(double pressure) {
+    deck_.line("*DSLOAD{}", amplitude_);
+    for (const auto* wheel : wheel_names) deck_.line("LINER_{}, P, {:g}", wheel, pressure);
   }
   void write_restart() { deck_.line("*RESTART, WRITE, FREQUENCY=1000000"); }
   void weight() { deck_.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity); }
@@ -283,7 +266,6 @@ void write_equilibrium(const CarSpec& spec, const TyreSpec& tyre, const TyreFact
   steps.weigh();
   steps.touch();
   steps.stand();
-  if (std::ranges::any_of(spec.pressure, [](const auto& pressure) { return pressure.has_value(); })) steps.deflate();
   steps.ride();
 }
 
@@ -339,6 +321,19 @@ void write_rolling_start(const CarSpec& spec, const TyreSpec& tyre, const TyreFa
   for (const auto* side : {"LEFT", "RIGHT"}) deck.line("*INITIAL CONDITIONS, TYPE=VELOCITY\nROAD_{}, 1, {:g}", side, -speed);
 }
 
+/// Amplitudes of tyres that lose their air.
+void write_pressure_losses(const CarSpec& spec, double pressure, DeckText& deck) {
+  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel)
+    if (const auto left = spec.pressure[wheel])
+      deck.line("*AMPLITUDE, NAME=PRESSURE_{}\n0., 1., {:g}, {:g}", wheel_names[wheel], spec.pressure_loss_time, *left / pressure);
+}
+
+void write_pressure(const CarSpec& spec, double pressure, DeckText& deck) {
+  for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel)
+    deck.line("*DSLOAD{}\nLINER_{}, P, {:g}",
+              spec.pressure[wheel] ? fmt::format(", AMPLITUDE=PRESSURE_{}", wheel_names[wheel]) : "", wheel_names[wheel], pressure);
+}
+
 /// All falls as fast as from the whole height, but for what is left of it.
 void write_falling_start(const DriveSpec& drive, DeckText& deck) {
   const double speed = std::sqrt(2.0 * gravity * std::max(drive.height - least_fall, 0.0));
@@ -358,6 +353,7 @@ void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre
     deck.chapter("DRIVE: the roads run, the car is free");
     write_rolling_start(spec, tyre, facts, loads, deck);
   }
+  write_pressure_losses(spec, tyre.statics.pressure, deck);
   deck.line("*TIME POINTS, NAME=FRAMES, GENERATE\n0., {:g}, {:g}", drive.duration, drive.duration / drive.frames);
   deck.line("**\n*STEP, NAME=DRIVE, NLGEOM=YES\n*DYNAMIC, EXPLICIT, SCALE FACTOR={:g}\n, {:g}\n*BULK VISCOSITY\n{:g}, {:g}",
             tyre.rolling.scale_factor, drive.duration, tyre.rolling.linear_bulk_viscosity, tyre.rolling.quadratic_bulk_viscosity);
@@ -368,7 +364,7 @@ void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre
   write_rim_pairs(tyre, deck);
   for (const auto* side : {"LEFT", "RIGHT"})
     deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, 0.0 - drive.speed, side);
-  inflate(spec, tyre.statics.pressure, true, deck);
+  write_pressure(spec, tyre.statics.pressure, deck);
   deck.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity);
   deck.line(
       "*OUTPUT, FIELD, NUMBER INTERVAL={}\n*NODE OUTPUT\nU, V\n*ELEMENT OUTPUT\nS, PEEQ\n*OUTPUT, HISTORY, TIME INTERVAL={:g}",

@@ -215,9 +215,9 @@ TEST(CarSpec, WhatCannotBeAssembledIsToldWithLineAndCure) {
   is_told("obstacle = \"comfort\" ", "obstacle = \"dorp\"    ", line_of("obstacle = \"comfort\""), "did you mean \"drop\"?");
   is_told("height = 500.0", "height = -500.0", line_of("height = 500.0"), "[drive.drop] height: -500 is out of range");
   is_told("height = 500.0", "heigth = 500.0", line_of("height = 500.0"), "did you mean \"height\"?");
-  is_told("[drive.drop]", "[pressure]\nfront_let = 0.0\n[drive.drop]", std::to_string(std::stoi(line_of("[drive.drop]")) + 1),
+  is_told("[drive.drop]", "[pressure]\nfront_let = 0.0\nloss_time = 40.0\n[drive.drop]", std::to_string(std::stoi(line_of("[drive.drop]")) + 1),
           "did you mean \"front_left\"?");
-  is_told("[drive.drop]", "[pressure]\nrear_right = -0.1\n[drive.drop]", std::to_string(std::stoi(line_of("[drive.drop]")) + 1),
+  is_told("[drive.drop]", "[pressure]\nrear_right = -0.1\nloss_time = 40.0\n[drive.drop]", std::to_string(std::stoi(line_of("[drive.drop]")) + 1),
           "[pressure] rear_right: -0.1 is out of range");
   const auto damper = main_spec().find("damper_bump");
   const auto curve = main_spec().substr(damper, main_spec().find('\n', damper) - damper);
@@ -334,6 +334,13 @@ TEST(CarBuilder, ADropStartsWeightlessOnReboundStopsAndFallsAsOneAboveAFlatRoad)
   EXPECT_NE(drop.drive.find("TYRE_REAR_RIGHT, 3, -3.06881"), std::string::npos);
   EXPECT_EQ(drop.drive.find("ROTATING VELOCITY"), std::string::npos);
   EXPECT_NE(drop.drive.find("ROAD_LEFT, 1, 1, 0\n"), std::string::npos);
+}
+
+TEST(CarBuilder, ATyreLosesItsAirAsTheDriveBegins) {
+  const auto drive = built(main_spec() + "[pressure]\nrear_left = 0.055\nloss_time = 40.0\n").drive;
+  EXPECT_NE(drive.find("*AMPLITUDE, NAME=PRESSURE_REAR_LEFT\n0., 1., 40, 0.25\n"), std::string::npos);
+  EXPECT_NE(drive.find("*DSLOAD, AMPLITUDE=PRESSURE_REAR_LEFT\nLINER_REAR_LEFT, P, 0.22\n"), std::string::npos);
+  EXPECT_NE(drive.find("*DSLOAD\nLINER_REAR_RIGHT, P, 0.22\n"), std::string::npos);
 }
 
 }  // namespace
