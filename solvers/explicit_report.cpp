@@ -67,7 +67,10 @@ bool ExplicitStep::observe() {
   if (!is_observed()) return true;
   fill_output();
   const bool regular = analysis_.current.increment % regular_increments == 0;
-  if (regular || finished()) watch_folding();
+  if (regular || finished()) {
+    watch_folding();
+    watch_increment();
+  }
   report_failure();
   if (regular || landing || (finished() && !checked_before_landing_)) check_energy_balance();
   checked_before_landing_ = checked_before_landing_ || landing;
@@ -133,6 +136,18 @@ void ExplicitStep::watch_folding() {
         "{}: warning: element {} has turned inside out at a corner: it is distorted beyond what its mesh can follow, and where it does not "
         "recover the run fails at the end of the step", when, element);
   });
+}
+
+void ExplicitStep::watch_increment() {
+  constexpr double short_part = 0.1;  // of the undeformed model's stable increment
+  if (told_short_) return;
+  const auto least = analysis_.communicator.minimum(Communicator::Located{stability_.increment, stability_.element});
+  if (least.value >= short_part * analysis_.undeformed_increment) return;
+  told_short_ = true;
+  observer_.log(fmt::format(
+      "step {}, increment {}, time {:.6g}: warning: element {} is so distorted that its stable increment is {:.3g} (undeformed model: {:.3g}): "
+      "until it recovers the run takes that much longer; use smaller elements or elements of a better shape there, or load it less",
+      step_.name, analysis_.current.increment, analysis_.current.total_time, least.payload, least.value, analysis_.undeformed_increment));
 }
 
 /// Collective.

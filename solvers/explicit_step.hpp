@@ -121,6 +121,8 @@ class ExplicitStep {
   /// In regular increments and at the end: the first folded element and the first that has turned inside out are told; those that are so when the step
   /// ends make it fail. In between they may recover, as a tyre's do that a blow has crushed.
   void watch_folding();
+  /// The first element that shortens the increments much is told. Collective.
+  void watch_increment();
   void tell_first(bool& told, const std::optional<FoldedCorner>& found, const std::function<std::string(std::int64_t)>& text);
   Progress progress() const;
 
@@ -157,7 +159,7 @@ class ExplicitStep {
   RoundingEnergy rounding_energy_;
   double negligible_energy_ = 0.0;       // when the balance was checked last
   bool checked_before_landing_ = false;  // the energy balance
-  bool told_folded_ = false, told_inside_out_ = false;  // by this run
+  bool told_folded_ = false, told_inside_out_ = false, told_short_ = false;  // by this run
   bool attention_ = true;               // the observer looks at this increment, and always at the start
   bool scales_masses_ = false;          // at the end of this increment
   bool nodes_are_ahead_ = false;        // they have moved over the increment to come, and their forces are cleared

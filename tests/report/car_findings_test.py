@@ -13,6 +13,7 @@ sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."
 import car_comparison  # noqa: E402
 import car_energies  # noqa: E402
 import car_findings  # noqa: E402
+import car_flights  # noqa: E402
 import car_loads  # noqa: E402
 import car_report  # noqa: E402
 import car_sections  # noqa: E402
@@ -37,10 +38,41 @@ class Findings(unittest.TestCase):
         time = np.arange(0.0, 101.0)
         columns = {"time": time, "wheel_centre_front_left_Fz": np.where(time == 70.0, 9000.0, 4000.0)}
         away = {"wheel_centre_front_left": 10.0 * time - 400.0}
-        when = lambda hole, away: list(car_report.instants_of_stress(types.SimpleNamespace(hole=hole), columns, away).values())
+        when = lambda hole, away: list(car_report.instants_of_stress(types.SimpleNamespace(hole=hole, drop=False), columns, away).values())
         self.assertEqual(when(False, away), [40.0])
         self.assertEqual(when(True, away), [70.0, 100.0])
         self.assertEqual(when(True, {"wheel_centre_front_left": away["wheel_centre_front_left"] - 700.0}), [])
+
+    def test_a_fall_is_told_by_time(self):
+        road = lambda heights: types.SimpleNamespace(profile=np.column_stack([np.arange(len(heights)), heights]), origin=np.zeros(3))
+        results = lambda heights: types.SimpleNamespace(surfaces={"ROAD_LEFT_SURFACE": road(heights)}, coordinates=np.zeros((2, 3)),
+                                                        node_sets={"HUB_FRONT_LEFT": [0], "HUB_REAR_LEFT": [1]})
+        self.assertFalse(car_findings.course(results([0.0, 0.0, 25.0, 25.0, 0.0])).drop)
+        fall = car_findings.course(results([0.0, 0.0]))
+        self.assertTrue(fall.drop)
+        time = np.arange(0.0, 101.0)
+        columns = {"time": time, "wheel_centre_front_left_Fz": np.where(time == 70.0, 9000.0, 4000.0)}
+        away = fall.distances(columns)
+        self.assertEqual(list(car_report.instants_of_stress(fall, columns, away).values()), [70.0, 100.0])
+        self.assertEqual(car_report.instants_of_motion(fall, columns, away), [0.0, 20.0, 40.0, 60.0, 80.0, 100.0])
+
+    def test_flights_of_a_wheel_are_spans_without_load(self):
+        time = np.arange(8.0)
+        self.assertEqual(car_flights.flights(time, np.array([0.0, 0, 50, 50, 0, 0, 0, 9])), [(0.0, 2.0), (4.0, 7.0)])
+        self.assertEqual(car_flights.flights(time, np.array([9.0, 9, 9, 9, 9, 9, 0, 0])), [(6.0, 7.0)])
+        self.assertEqual(car_flights.flights(time, np.full(8, 9.0)), [])
+
+    def test_landing_tells_the_height_of_the_fall(self):
+        time = np.arange(0.0, 20.0, 0.1)
+        load = np.where(time > 5.95, 3000.0 * (time - 5.95), 0.0)
+        speed = np.column_stack([np.zeros_like(time), np.zeros_like(time), -3.0 - 9.81e-3 * time])
+        names = {f"contact_TREAD_{wheel}_ROAD": {"time": time, "CFN": np.outer(load * (wheel == "REAR_LEFT"), (0.0, 0.0, 1.0))}
+                 for wheel in car_flights.WHEELS} | {"node_7": {"time": time, "V": speed}}
+        step = types.SimpleNamespace(time_start=0.0, histories=lambda: list(names), history=names.get)
+        landing = car_flights.Landing(types.SimpleNamespace(reference_id=lambda name: 7), step)
+        self.assertEqual(landing.wheel, "REAR_LEFT")
+        self.assertAlmostEqual(landing.speed, 3.0 + 9.81e-3 * 6.0, places=6)
+        self.assertAlmostEqual(landing.height, landing.speed**2 / (2.0 * 9.81e-3), places=6)
 
     def test_peaks_in_the_hole_count_from_the_ramp_on(self):
         distance = np.linspace(-1000.0, 1000.0, 201)
