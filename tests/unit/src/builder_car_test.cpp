@@ -214,7 +214,6 @@ TEST(CarSpec, WhatCannotBeAssembledIsToldWithLineAndCure) {
   is_told("wheel_height = 268.0", "wheel_height = 178.0", line_of("wheel_height ="), "is on the road");
   is_told("obstacle = \"comfort\" ", "obstacle = \"dorp\"    ", line_of("obstacle = \"comfort\""), "did you mean \"drop\"?");
   is_told("height = 500.0", "height = -500.0", line_of("height = 500.0"), "[drive.drop] height: -500 is out of range");
-  is_told("height = 500.0", "heigth = 500.0", line_of("height = 500.0"), "did you mean \"height\"?");
   is_told("[drive.drop]", "[pressure]\nfront_let = 0.0\nloss_time = 40.0\n[drive.drop]", std::to_string(std::stoi(line_of("[drive.drop]")) + 1),
           "did you mean \"front_left\"?");
   is_told("[drive.drop]", "[pressure]\nrear_right = -0.1\nloss_time = 40.0\n[drive.drop]", std::to_string(std::stoi(line_of("[drive.drop]")) + 1),
