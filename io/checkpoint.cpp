@@ -24,7 +24,7 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 9;
+constexpr std::int64_t checkpoint_version = 9;
 
 ParallelFile::Layout plain_layout(int columns) {
   return {{static_cast<hsize_t>(columns)}, ParallelFile::Precision::double_, false};
@@ -62,7 +62,7 @@ std::size_t checkpoint_bytes(const Model& model, const Communicator& communicato
   return values * sizeof(double) + (1 << 20);
 }
 
-void write_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
+void write_state_tables(ParallelFile& file, const Model& model, const Communicator& communicator, const Domain& domain,
                   ElementGroups groups, const State& state) {
   const NodeRows nodes = make_node_rows(model, communicator, domain, Copies::owned);
   const auto write = [&](const std::string& name, const RowExchange& exchange, std::vector<double> values, int columns) {
@@ -164,7 +164,7 @@ void write_header(const std::string& path, const Model& model, const State& stat
     file.write("/implied_rows", {rows.implied.size(), 1}, rows.implied);
   }
   write_identity(file, model);
-  file.set_attribute("/", "format_version", format_version);
+  file.set_attribute("/", "format_version", checkpoint_version);
   file.set_attribute("/", "deck_sha256", model.deck_sha256);
   for (const auto& [part, digest] : model_digests(model)) file.set_attribute("/", "digest of " + part, digest);
   file.set_attribute("/", "total_time", state.total_time);
@@ -338,7 +338,7 @@ std::unique_ptr<Hdf5File> open_checkpoint(const std::string& path) {
     throw InputError(fmt::format("{}: error: {}; restart from a whole JOB.ckpt.h5, or run without --restart", path,
                                  format == "balocco" ? "this is a results file, not a checkpoint"
                                                      : "not a checkpoint of Balocco, or one that was not finished"));
-  if (file->integer_attribute("/", "format_version") != format_version)
+  if (file->integer_attribute("/", "format_version") != checkpoint_version)
     throw InputError(fmt::format("{}: error: checkpoint of another version of Balocco; restart with that version", path));
   return file;
 }
@@ -351,7 +351,7 @@ void write_checkpoint(const std::string& path, const Model& model, const Communi
     if (communicator.is_root()) ensure_space(beside, bytes);
   });
   ParallelFile file(beside, communicator, ParallelFile::Mode::create);
-  write_tables(file, model, communicator, domain, groups, state);
+  write_state_tables(file, model, communicator, domain, groups, state);
   file.close();
   const ConstraintRows rows(communicator, state);
   communicator.together([&] {

@@ -17,11 +17,9 @@
 #include "model/diagnostics.hpp"
 #include "model/rigid_constraints.hpp"
 
-namespace balocco {
+namespace balocco::deck {
 
 namespace {
-
-using namespace deck;
 
 void run_task(Builder& builder, const Task& task) {
   builder.scope = task.scope;
@@ -76,6 +74,10 @@ void throw_if_wrong(const Diagnostics& diagnostics, const std::vector<std::strin
 
 }  // namespace
 
+}  // namespace balocco::deck
+
+namespace balocco {
+
 FileLoader file_loader() {
   return [](const std::string& path) -> std::optional<std::string> {
     std::ifstream file(path, std::ios::binary);
@@ -87,6 +89,7 @@ FileLoader file_loader() {
 }
 
 ReadResult read_deck(const std::string& path, const FileLoader& loader, const ReadOptions& options) {
+  using namespace deck;
   register_material_laws();
   Diagnostics diagnostics;
   Tokens tokens = tokenize(path, loader, diagnostics);

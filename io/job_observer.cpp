@@ -22,14 +22,6 @@ constexpr double seconds_between_polls = 0.2;      // how soon a signal or JOB.c
 constexpr double seconds_between_flushes = 30.0;   // how much history a kill may cost
 constexpr std::int32_t status_lines = 100;         // per explicit step
 
-/// What is due in the step that runs.
-struct StepPlan {
-  std::vector<Schedule> fields;  // per Step::field_outputs
-  std::optional<Schedule> status, checkpoint;
-  History history;
-  FrameWriter frames;
-};
-
 std::optional<Schedule> checkpoint_schedule(const Step& step) {
   if (step.checkpoint_number_interval) return Schedule::equal_intervals(*step.checkpoint_number_interval, step.duration());
   if (step.checkpoint_frequency && *step.checkpoint_frequency > 0) {
@@ -41,6 +33,14 @@ std::optional<Schedule> checkpoint_schedule(const Step& step) {
 }  // namespace
 
 struct JobObserver::Implementation {
+  /// What is due in the step that runs.
+  struct StepPlan {
+    std::vector<Schedule> fields;  // per Step::field_outputs
+    std::optional<Schedule> status, checkpoint;
+    History history;
+    FrameWriter frames;
+  };
+
   Implementation(const Model& model, const Communicator& communicator, const Domain& domain, JobPaths job, bool restarted);
 
   void start(const ResultSource& running, std::int32_t step);

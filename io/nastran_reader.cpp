@@ -16,11 +16,9 @@
 #include "nastran/coordinate_systems.hpp"
 #include "nastran/shell_sides.hpp"
 
-namespace balocco {
+namespace balocco::nastran {
 
 namespace {
-
-using namespace nastran;
 
 /// Elements that are not read: a mesh without them would have holes.
 const std::set<std::string> other_elements{"CBAR",   "CBEAM", "CBEND",  "CHEXA",  "CONROD", "CPENTA", "CPYRAM", "CQUAD", "CQUAD8",
@@ -232,8 +230,12 @@ class Reader {
 
 }  // namespace
 
+}  // namespace balocco::nastran
+
+namespace balocco {
+
 NastranMesh read_nastran(const std::string& text, const std::string& file_name) {
-  return Reader(text, file_name).read();
+  return nastran::Reader(text, file_name).read();
 }
 
 }  // namespace balocco

@@ -13,12 +13,12 @@ namespace balocco {
 namespace {
 
 /// Where a checkpoint stands.
-struct Place {
+struct Standing {
   std::int64_t step = 0;       // row of the step that is running or comes next
   std::int64_t increment = 0;  // 0: that step has not begun
   double step_time = 0.0, total_time = 0.0, time_increment = 0.0;
 
-  explicit Place(const Hdf5File& file)
+  explicit Standing(const Hdf5File& file)
       : step(file.integer_attribute("/", "step")),
         increment(file.integer_attribute("/", "increment")),
         step_time(file.number_attribute("/", "step_time")),
@@ -34,7 +34,7 @@ class Preparation {
   Preparation(const std::string& path, Model& model) : path_(path), model_(model), read_(*model.restart_read) {}  // has one
 
   void run() {
-    const Place place(*open_checkpoint(path_));
+    const Standing place(*open_checkpoint(path_));
     check_step(place);
     check_times(place);
     if (read_.end_step) end_step(place);
@@ -46,7 +46,7 @@ class Preparation {
     throw InputError(fmt::format("{}: error: *RESTART, READ: {}", model_.where(read_.location), text));
   }
 
-  void check_step(const Place& place) const {
+  void check_step(const Standing& place) const {
     if (read_.step != 0 && read_.step != place.number())
       refuse(fmt::format(
           "{} stands {} step {}, not of step {}: a checkpoint holds the last state of its job alone; give STEP={}, or end that job "
@@ -61,7 +61,7 @@ class Preparation {
     if (ends_here && place.number() == steps) refuse("nothing is left to do behind that step; add a *STEP");
   }
 
-  void check_times(const Place& place) const {
+  void check_times(const Standing& place) const {
     double before = 0.0;
     for (std::int64_t row = 0; row < place.step; ++row) before += model_.steps[row].duration();
     constexpr double rounding = 1e-9;  // of times that were summed up over increments
@@ -79,7 +79,7 @@ class Preparation {
   }
 
   /// The increment to come, which velocities are ahead by the half of, is the last of the step.
-  void end_step(const Place& place) {
+  void end_step(const Standing& place) {
     if (!place.within_step()) return;
     auto* const procedure = std::get_if<ExplicitProcedure>(&model_.steps[place.step].procedure);
     if (procedure == nullptr)

@@ -13,7 +13,7 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t format_version = 1;
+constexpr std::int64_t results_version = 1;
 
 const char* word(Section::Kind kind) {
   switch (kind) {
@@ -61,7 +61,7 @@ void write_instances(const Hdf5File& file, const Model& model) {
   }
 }
 
-void write_tables(const Hdf5File& file, const Model& model) {
+void write_mesh_tables(const Hdf5File& file, const Model& model) {
   const auto nodes = static_cast<hsize_t>(model.nodes.size());
   file.create_group("/mesh/node");
   file.write("/mesh/node/id", {nodes}, model.nodes.id);
@@ -157,7 +157,7 @@ void write_surfaces(const Hdf5File& file, const Model& model) {
 
 void write_mesh(const Hdf5File& file, const Model& model) {
   file.set_attribute("/", "format", std::string("balocco"));
-  file.set_attribute("/", "format_version", format_version);
+  file.set_attribute("/", "format_version", results_version);
   file.set_attribute("/", "code_version", std::string(BALOCCO_VERSION));
   file.set_attribute("/", "deck_sha256", model.deck_sha256);
   file.set_attribute("/", "name", model.name);
@@ -166,7 +166,7 @@ void write_mesh(const Hdf5File& file, const Model& model) {
   file.set_attribute("/", "units", units.length.empty() ? "" : fmt::format("{} {} {}", units.length, units.mass, units.time));
   file.create_group("/mesh");
   write_instances(file, model);
-  write_tables(file, model);
+  write_mesh_tables(file, model);
   write_parts(file, model);
   write_sets(file, model);
   write_surfaces(file, model);

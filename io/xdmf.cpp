@@ -31,9 +31,9 @@ const char* topology_of(const std::string& type) {
   return nullptr;
 }
 
-class Writer {
+class XdmfWriter {
  public:
-  Writer(const ResultsIndex& index, const std::string& results_name) : index_(index), name_(results_name) {}
+  XdmfWriter(const ResultsIndex& index, const std::string& results_name) : index_(index), name_(results_name) {}
 
   std::string text(const std::vector<FrameRecord>& frames) {
     line("<?xml version=\"1.0\" ?>");
@@ -116,11 +116,11 @@ class Writer {
 }  // namespace
 
 std::string xdmf_text(const ResultsIndex& index, const std::string& results_name) {
-  return Writer(index, results_name).text(index.frames);
+  return XdmfWriter(index, results_name).text(index.frames);
 }
 
 std::string modes_xdmf_text(const ResultsIndex& index, const std::string& results_name) {
-  return Writer(index, results_name).text(index.modes);
+  return XdmfWriter(index, results_name).text(index.modes);
 }
 
 void replace_file(const std::string& path, const std::string& text) {

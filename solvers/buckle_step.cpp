@@ -153,7 +153,7 @@ Outcome run_buckle_step(Analysis& analysis, const Step& step, Observer& observer
 }
 
 namespace {
-const RegisterProcedure<BuckleProcedure> registered(run_buckle_step);
+const RegisterProcedure<BuckleProcedure> buckle_procedure(run_buckle_step);
 }  // namespace
 
 }  // namespace balocco

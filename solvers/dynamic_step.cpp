@@ -227,7 +227,7 @@ Outcome run_dynamic_step(Analysis& analysis, const Step& step, Observer& observe
 }
 
 namespace {
-const RegisterProcedure<DynamicProcedure> registered(run_dynamic_step);
+const RegisterProcedure<DynamicProcedure> dynamic_procedure(run_dynamic_step);
 }  // namespace
 
 }  // namespace balocco

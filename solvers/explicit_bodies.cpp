@@ -6,14 +6,11 @@
 #include "constraints/rigid_body.hpp"
 #include "loads/body_load.hpp"
 #include "step_driver.hpp"
+#include "vectors.hpp"
 
 namespace balocco {
 
 namespace {
-
-Vector3<double> vector(const Point& point) {
-  return {point};
-}
 
 /// Components along the degrees of freedom of a global pair (translation, rotation), and back.
 Vector6 along(const Matrix3<double>& axes, const Vector3<double>& translation, const Vector3<double>& rotation) {
@@ -83,7 +80,7 @@ void RigidDynamics::add_nodes(const Analysis& analysis, std::size_t index) {
   };
   add(body.reference, body.reference < domain.turning, {});
   for (const auto& carried : state.nodes) {
-    body.reach = std::max(body.reach, std::sqrt(dot(vector(carried.offset), vector(carried.offset))));
+    body.reach = std::max(body.reach, std::sqrt(dot(vector_of(carried.offset), vector_of(carried.offset))));
     if (const auto node = domain.local_node[carried.node]; node >= 0) add(node, carried.tie && node < domain.turning, carried.offset);
   }
   body.pushed = body.active = body.nodes.size();
@@ -145,8 +142,8 @@ void RigidDynamics::find_weights(const Analysis& analysis, const Instant& instan
 RigidDynamics::Motion RigidDynamics::motion(const Analysis& analysis, const Body& body, std::size_t index) const {
   const auto& state = analysis.current.rigid_bodies[index];
   const auto& origin = analysis.model.nodes.coordinates[analysis.model.rigid_bodies[index].reference_node];
-  return {along(body.axes, vector(state.position) - vector(origin), vector(state.rotation)),
-          along(body.axes, vector(state.velocity), vector(state.angular_velocity))};
+  return {along(body.axes, vector_of(state.position) - vector_of(origin), vector_of(state.rotation)),
+          along(body.axes, vector_of(state.velocity), vector_of(state.angular_velocity))};
 }
 
 void RigidDynamics::refuse_jumps(const Analysis& analysis) const {
@@ -191,7 +188,7 @@ void RigidDynamics::add_body_forces(const Analysis& analysis, const NodalForces&
       for (int c = 0; c < 3; ++c) sums[3 + c].add(forces.moment[4 * static_cast<std::ptrdiff_t>(node) + c]);
     const double* f = forces.force + 4 * static_cast<std::ptrdiff_t>(node);
     const Vector3<double> nodal{{f[0], f[1], f[2]}};
-    const auto moment = cross(rotation * vector(offset), nodal);
+    const auto moment = cross(rotation * vector_of(offset), nodal);
     for (int c = 0; c < 3; ++c) {
       sums[c].add(nodal[c]);
       sums[3 + c].add(moment[c]);
@@ -270,7 +267,7 @@ void RigidDynamics::accelerate(Analysis& analysis, const Instant& instant, const
     const Vector6 path = instant.previous * now.velocity + instant.next * velocity;
     const auto [way, turn] = global(body.axes, path);
     analysis.current.nodal_work[body.reference].external +=
-        0.5 * (dot(body.reaction, path) + dot(vector(moments[i]), turn) + dot(body.weight, pair_of(way, turn)));
+        0.5 * (dot(body.reaction, path) + dot(vector_of(moments[i]), turn) + dot(body.weight, pair_of(way, turn)));
     set_node_velocities(analysis, i, instant.next, std::span(body.nodes).first(body.active));
   }
 }
@@ -282,11 +279,11 @@ void RigidDynamics::set_node_velocities(Analysis& analysis, std::size_t index, d
                            .angular_velocity = analysis.current.rigid_bodies[index].angular_velocity,
                            .rotation = {},
                            .nodes = {}};
-  const auto spin = vector(middle.angular_velocity);
+  const auto spin = vector_of(middle.angular_velocity);
   rotate(middle, (0.5 * increment * spin).component);
   const auto rotation = rotation_matrix(middle);
   for (const auto& carried : nodes) {
-    const auto turning = cross(spin, rotation * vector(carried.offset));
+    const auto turning = cross(spin, rotation * vector_of(carried.offset));
     for (int c = 0; c < 3; ++c) analysis.current.velocity[4 * carried.node + c] = middle.velocity[c] + turning[c];
     if (carried.turns) std::ranges::copy(middle.angular_velocity, &analysis.current.angular_velocity[4 * carried.node]);
   }
@@ -296,7 +293,7 @@ void RigidDynamics::advance(Analysis& analysis, double increment) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     auto& state = analysis.current.rigid_bodies[i];
     for (int c = 0; c < 3; ++c) state.position[c] += increment * state.velocity[c];
-    rotate(state, (increment * vector(state.angular_velocity)).component);
+    rotate(state, (increment * vector_of(state.angular_velocity)).component);
     place(analysis, state, std::span(bodies_[i].nodes).first(bodies_[i].active));
   }
 }
@@ -304,7 +301,7 @@ void RigidDynamics::advance(Analysis& analysis, double increment) const {
 void RigidDynamics::place(Analysis& analysis, const RigidBodyState& state, std::span<const CarriedNode> nodes) const {
   const auto rotation = rotation_matrix(state);
   for (const auto& carried : nodes) {
-    const auto arm = rotation * vector(carried.offset);
+    const auto arm = rotation * vector_of(carried.offset);
     for (int c = 0; c < 3; ++c) analysis.current.position[4 * carried.node + c] = state.position[c] + arm[c];
     if (!carried.oriented) continue;
     std::ranges::copy(state.orientation, &analysis.current.orientation[4 * carried.node]);
@@ -318,15 +315,15 @@ void RigidDynamics::add_to_output(Analysis& analysis, const Instant& instant, co
     const auto [force, moment] = global(body.axes, body.reaction);
     const auto& state = analysis.current.rigid_bodies[i];
     const double power =
-        dot(force + body.weight.translation(), vector(state.velocity)) +
-        dot(moment + vector(moments[i]) + body.weight.rotation(), vector(state.angular_velocity));
+        dot(force + body.weight.translation(), vector_of(state.velocity)) +
+        dot(moment + vector_of(moments[i]) + body.weight.rotation(), vector_of(state.angular_velocity));
     analysis.work_ahead[body.reference].external += 0.5 * instant.next * power;
     analysis.body_reaction[i] = {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
     const auto [linear, angular] = global(body.axes, body.acceleration);
     analysis.body_angular_acceleration[i] = angular.component;
     const auto rotation = rotation_matrix(state);
     for (const auto& carried : body.nodes) {
-      const auto arm = rotation * vector(carried.offset);
+      const auto arm = rotation * vector_of(carried.offset);
       const auto acceleration = linear + cross(angular, arm) + cross(body.spin, cross(body.spin, arm));
       std::copy_n(acceleration.component.data(), 3, &analysis.acceleration[4 * carried.node]);
       if (carried.turns) std::ranges::copy(angular.component, &analysis.angular_acceleration[4 * carried.node]);

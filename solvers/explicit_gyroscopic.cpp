@@ -7,14 +7,11 @@
 #include "math/definite_solver.hpp"
 #include "math/rotation.hpp"
 #include "model/diagnostics.hpp"
+#include "vectors.hpp"
 
 namespace balocco {
 
 namespace {
-
-Vector3<double> vector(const double* p) {
-  return {{p[0], p[1], p[2]}};
-}
 
 /// What turned before its body took it has another inertia in the body's frame than at the start.
 bool turns_as_its_body(const Analysis& analysis, std::int32_t node) {
@@ -105,8 +102,8 @@ GyroscopicNodes::Motion GyroscopicNodes::solve(const Node& node, const Analysis&
                                                const Instant& instant) const {
   Motion motion;
   const auto& state = analysis.current;
-  motion.old_spin = node.axes * vector(&state.angular_velocity[4 * node.node]);
-  const auto torque = node.axes * moment, rotation = node.axes * vector(&state.rotation[4 * node.node]);
+  motion.old_spin = node.axes * vector_of(&state.angular_velocity[4 * node.node]);
+  const auto torque = node.axes * moment, rotation = node.axes * vector_of(&state.rotation[4 * node.node]);
   const auto& [orientation, mass, inverse] = inertia(node, analysis);
   Vector3<double> known{}, wanted{};
   for (int dof = 0; dof < 3; ++dof) {
@@ -143,7 +140,7 @@ Vector3<double> GyroscopicNodes::predicted_spin(const Analysis& analysis, const 
 
 void GyroscopicNodes::accelerate(Analysis& analysis, const Step& step, const Instant& instant, const double* moment) {
   for (auto& node : nodes_) {
-    const auto motion = solve(node, analysis, step, vector(moment + 4 * static_cast<std::ptrdiff_t>(node.node)), instant);
+    const auto motion = solve(node, analysis, step, vector_of(moment + 4 * static_cast<std::ptrdiff_t>(node.node)), instant);
     node.acceleration = motion.acceleration;
     node.reaction = motion.reaction;
     analysis.current.nodal_work[node.node].external +=
@@ -161,7 +158,7 @@ void GyroscopicNodes::add_to_output(Analysis& analysis, const Instant& instant) 
       analysis.angular_acceleration[4 * node.node + i] = acceleration[i];
     }
     analysis.work_ahead[node.node].external +=
-        0.5 * instant.next * dot(reaction, vector(&analysis.current.angular_velocity[4 * node.node]));
+        0.5 * instant.next * dot(reaction, vector_of(&analysis.current.angular_velocity[4 * node.node]));
   }
 }
 

@@ -7,18 +7,17 @@
 #include "constraints/rigid_body.hpp"
 #include "math/rotation.hpp"
 #include "model/diagnostics.hpp"
+#include "vectors.hpp"
 
 namespace balocco {
 
 namespace {
 
-Vector3<double> vector(const double* p) { return {{p[0], p[1], p[2]}}; }
-
-double component(const Vector6& six, const Point& direction) {
+double along(const Vector6& six, const Point& direction) {
   return six[0] * direction[0] + six[1] * direction[1] + six[2] * direction[2];
 }
 
-void add(Vector6& six, double factor, const Point& direction) {
+void add_along(Vector6& six, double factor, const Point& direction) {
   for (int c = 0; c < 3; ++c) six[c] += factor * direction[c];
 }
 
@@ -49,7 +48,7 @@ void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) c
       for (const auto& use : member.nodes) {
         for (int c = 0; c < 3; ++c) line[use.column + c] += g[c];
         if (use.carried) {
-          const auto moment = cross(use.arm, vector(g));
+          const auto moment = cross(use.arm, vector_of(g));
           for (int c = 0; c < 3; ++c) line[use.column + 3 + c] += moment[c];
         }
         for (int c = 0; c < 3 && use.rotation >= 0; ++c) line[use.rotation_column + c] += g[3 + c];
@@ -89,9 +88,9 @@ void ExplicitLinkages::find_base(const Analysis& analysis, System& system, const
     mover.base = {};
     for (const auto& direction : mover.directions)
       if (mover.first_unknown < 0)
-        add(mover.base, component(mover.old_velocity, direction) + instant.average() * mover.inverse_inertia * component(mover.load, direction),
+        add_along(mover.base, along(mover.old_velocity, direction) + instant.average() * mover.inverse_inertia * along(mover.load, direction),
             direction);
-    for (const auto* condition : mover.conditions) add(mover.base, condition->new_velocity, condition->direction);
+    for (const auto* condition : mover.conditions) add_along(mover.base, condition->new_velocity, condition->direction);
   }
 }
 
@@ -111,8 +110,8 @@ void ExplicitLinkages::find_velocities(const Analysis& analysis, System& system,
         for (std::size_t k = 0; k < mover.directions.size(); ++k) {
           const double change = mover.first_unknown >= 0
                                     ? system.solution[mover.first_unknown + k]
-                                    : instant.average() * mover.inverse_inertia * component(mover.constraint_force, mover.directions[k]);
-          add(mover.velocity, change, mover.directions[k]);
+                                    : instant.average() * mover.inverse_inertia * along(mover.constraint_force, mover.directions[k]);
+          add_along(mover.velocity, change, mover.directions[k]);
         }
     }
     if (mover.kind != Mover::Kind::translation) mover.turn = rotation_matrix(exponential(instant.next * mover.spin()));
@@ -172,7 +171,7 @@ double ExplicitLinkages::find_residual(const Analysis& analysis, System& system,
   }
   for (const auto& mover : system.movers)
     for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k)
-      system.residual[mover.first_unknown + k] = component(mover.load + mover.constraint_force, mover.directions[k]);
+      system.residual[mover.first_unknown + k] = along(mover.load + mover.constraint_force, mover.directions[k]);
   return largest;
 }
 
@@ -259,7 +258,7 @@ void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
       else
         std::copy_n(&(mover.kind == Mover::Kind::translation ? state.velocity : state.angular_velocity)[at], 3, mover.velocity.component.begin());
       if (mover.first_unknown >= 0)
-        for (const auto& direction : mover.directions) add(mover.velocity, -component(mover.velocity, direction), direction);
+        for (const auto& direction : mover.directions) add_along(mover.velocity, -along(mover.velocity, direction), direction);
       mover.load = {};
       mover.constraint_force = {};
     }
@@ -269,7 +268,7 @@ void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
     for (auto& mover : system.movers) {
       Vector6 change = mover.response * mover.constraint_force;
       for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k)
-        add(change, system.solution[mover.first_unknown + k], mover.directions[k]);
+        add_along(change, system.solution[mover.first_unknown + k], mover.directions[k]);
       mover.velocity += change;
       if (mover.kind == Mover::Kind::body) bodies_.set_velocity(analysis, static_cast<std::size_t>(mover.index), mover.velocity);
     }

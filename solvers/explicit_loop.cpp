@@ -66,7 +66,7 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
 }
 
 namespace {
-const RegisterProcedure<ExplicitProcedure> registered(run_explicit_step);
+const RegisterProcedure<ExplicitProcedure> explicit_procedure(run_explicit_step);
 }  // namespace
 
 }  // namespace balocco

@@ -19,11 +19,11 @@ bool holds(const Model& model, const BoundaryCondition& condition) {
   return condition.amplitude < 0 || has_arrived(model, condition);
 }
 
-double component(const double* vector, const Point& direction) {
+double component_of(const double* vector, const Point& direction) {
   return vector[0] * direction[0] + vector[1] * direction[1] + vector[2] * direction[2];
 }
 
-void add(double* vector, double factor, const Point& direction) {
+void add_to(double* vector, double factor, const Point& direction) {
   for (int c = 0; c < 3; ++c) vector[c] += factor * direction[c];
 }
 
@@ -104,12 +104,12 @@ const std::vector<double>& NodalConstraints::inertia(const Analysis& analysis) c
 
 MotionComponent NodalConstraints::motion(const Analysis& analysis, const Constraint& constraint) const {
   if (freedom_ == NodalFreedom::rotation)
-    return {component(&analysis.current.rotation[4 * constraint.node], constraint.direction),
-            component(&analysis.current.angular_velocity[4 * constraint.node], constraint.direction)};
+    return {component_of(&analysis.current.rotation[4 * constraint.node], constraint.direction),
+            component_of(&analysis.current.angular_velocity[4 * constraint.node], constraint.direction)};
   const auto& origin = analysis.model.nodes.coordinates[constraint.condition->node];
   const double* position = &analysis.current.position[4 * constraint.node];
-  return {component(position, constraint.direction) - component(origin.data(), constraint.direction),
-          component(&analysis.current.velocity[4 * constraint.node], constraint.direction)};
+  return {component_of(position, constraint.direction) - component_of(origin.data(), constraint.direction),
+          component_of(&analysis.current.velocity[4 * constraint.node], constraint.direction)};
 }
 
 void NodalConstraints::refuse_jumps(const Analysis& analysis) const {
@@ -121,7 +121,7 @@ void NodalConstraints::set_initial_velocities(Analysis& analysis, const Step& st
   for (const auto& constraint : constraints_) {
     const auto now = motion(analysis, constraint);
     const double wanted = prescribed_initial_velocity(analysis.model, step, *constraint.condition, instant, now);
-    add(&velocity(analysis)[4 * constraint.node], wanted - now.velocity, constraint.direction);
+    add_to(&velocity(analysis)[4 * constraint.node], wanted - now.velocity, constraint.direction);
   }
 }
 
@@ -143,19 +143,19 @@ void NodalConstraints::find_reactions(const Analysis& analysis, const Instant& i
   for (auto& constraint : constraints_) {
     const double acceleration = (constraint.new_velocity - constraint.old_velocity) / instant.average();
     constraint.reaction = inertia(analysis)[constraint.node] * acceleration -
-                          component(force + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
+                          component_of(force + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
   }
 }
 
 void NodalConstraints::add_to_reactions(std::int32_t node, const Point& force) {
   for (auto& constraint : std::ranges::equal_range(constraints_, node, {}, &Constraint::node))
-    constraint.reaction -= component(force.data(), constraint.direction);
+    constraint.reaction -= component_of(force.data(), constraint.direction);
 }
 
 void NodalConstraints::enforce(Analysis& analysis, const Instant& instant) const {
   for (const auto& constraint : constraints_) {
     double* const entry = &velocity(analysis)[4 * constraint.node];
-    add(entry, constraint.new_velocity - component(entry, constraint.direction), constraint.direction);
+    add_to(entry, constraint.new_velocity - component_of(entry, constraint.direction), constraint.direction);
     // Trapezoidal: half the work of the increment before, half of the one that follows.
     analysis.current.nodal_work[constraint.node].external +=
         0.5 * constraint.reaction *
@@ -175,17 +175,17 @@ void NodalConstraints::add_to_output(Analysis& analysis, const Instant& instant)
   auto& reaction = rotations ? analysis.reaction_moment : analysis.reaction;
   auto& acceleration = rotations ? analysis.angular_acceleration : analysis.acceleration;
   for (const auto& constraint : constraints_) {
-    add(&reaction[4 * constraint.node], constraint.reaction, constraint.direction);
+    add_to(&reaction[4 * constraint.node], constraint.reaction, constraint.direction);
     analysis.work_ahead[constraint.node].external += 0.5 * instant.next * constraint.reaction * constraint.new_velocity;
     const double mass = inertia(analysis)[constraint.node];
-    if (mass > 0.0) add(&acceleration[4 * constraint.node], constraint.reaction / mass, constraint.direction);
+    if (mass > 0.0) add_to(&acceleration[4 * constraint.node], constraint.reaction / mass, constraint.direction);
   }
 }
 
 void NodalConstraints::remove_constrained(double* vector) const {
   for (const auto& constraint : constraints_) {
     double* entry = vector + 4 * static_cast<std::ptrdiff_t>(constraint.node);
-    add(entry, -component(entry, constraint.direction), constraint.direction);
+    add_to(entry, -component_of(entry, constraint.direction), constraint.direction);
   }
 }
 
@@ -194,7 +194,7 @@ double NodalConstraints::squared_constrained(const Domain& domain, const double*
   double sum = 0.0;
   for (const auto& constraint : constraints_) {
     const double value = factor(static_cast<std::size_t>(constraint.node)) *
-                         component(vector + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
+                         component_of(vector + 4 * static_cast<std::ptrdiff_t>(constraint.node), constraint.direction);
     if (domain.owned[constraint.node]) sum += value * value;
   }
   return sum;

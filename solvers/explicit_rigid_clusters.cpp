@@ -9,12 +9,11 @@
 #include "constraints/joint.hpp"
 #include "math/rotation.hpp"
 #include "model/diagnostics.hpp"
+#include "vectors.hpp"
 
 namespace balocco {
 
 namespace {
-
-Vector3<double> vector(const double* p) { return {{p[0], p[1], p[2]}}; }
 
 Quaternion<double> orientation(const Analysis& analysis, std::int32_t node) {
   const double* const q = &analysis.current.orientation[4 * static_cast<std::size_t>(node)];
@@ -97,7 +96,7 @@ bool RigidClusters::takes_inertia(const Analysis& analysis, Cluster& cluster) {
   for (auto& end : cluster.ends) {
     end.mass = inertia.mass[end.node];
     end.rotary = end.turns ? inertia.rotary[end.node] : 0.0;
-    end.offset = vector(analysis.model.nodes.coordinates[analysis.domain.node_row[end.node]].data());
+    end.offset = vector_of(analysis.model.nodes.coordinates[analysis.domain.node_row[end.node]].data());
     cluster.mass += end.mass;
     cluster.rotary += end.rotary;
     centre = centre + end.mass * end.offset;
@@ -151,10 +150,10 @@ void RigidClusters::read_state(const Analysis& analysis, Cluster& cluster) {
   for (auto& end : cluster.ends) {
     const std::size_t at = 4 * static_cast<std::size_t>(end.node);
     end.arm = rotation * end.offset;
-    end.old_velocity = vector(&state.velocity[at]);
+    end.old_velocity = vector_of(&state.velocity[at]);
     end.old_spin = end.turn = {};
     if (!end.turns) continue;
-    end.old_spin = vector(&state.angular_velocity[at]);
+    end.old_spin = vector_of(&state.angular_velocity[at]);
     const auto q = orientation(analysis, end.node);
     end.turn = rotation_vector(product(first, {q[0], -q[1], -q[2], -q[3]}));
   }
@@ -163,8 +162,8 @@ void RigidClusters::read_state(const Analysis& analysis, Cluster& cluster) {
 void RigidClusters::read_loads(const NodalForces& forces, Cluster& cluster) {
   for (auto& end : cluster.ends) {
     const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(end.node);
-    end.load = vector(forces.force + at);
-    end.moment = end.turns ? vector(forces.moment + at) : Vector3<double>{};
+    end.load = vector_of(forces.force + at);
+    end.moment = end.turns ? vector_of(forces.moment + at) : Vector3<double>{};
   }
 }
 
@@ -194,7 +193,7 @@ bool RigidClusters::find_velocities(const Analysis& analysis, Cluster& cluster, 
   auto angular = sum.angular;
   Vector3<double> centre_by_first{}, centre{};  // the latter from the former
   for (auto& end : cluster.ends) {
-    const auto centre_by_end = vector(&analysis.current.position[4 * static_cast<std::size_t>(end.node)]) - end.arm;
+    const auto centre_by_end = vector_of(&analysis.current.position[4 * static_cast<std::size_t>(end.node)]) - end.arm;
     if (&end == &cluster.ends.front()) centre_by_first = centre_by_end;
     end.gap = centre_by_first - centre_by_end;
     centre = centre - (end.mass / cluster.mass) * end.gap;

@@ -6,23 +6,16 @@
 #include <cmath>
 
 #include "constraints/rigid_body.hpp"
-#include "math/tensor.hpp"
 #include "rolling_start.hpp"
+#include "vectors.hpp"
 
 namespace balocco {
 
 namespace {
 
-Vector3<double> vector(const double* p) {
-  return {{p[0], p[1], p[2]}};
-}
-Vector3<double> vector(const Point& point) {
-  return {point};
-}
-
 /// The undeformed model's, as every place in a deck.
 RotationAxis axis_in_deck(const InitialVelocity& rotation) {
-  return {vector(rotation.axis_point), vector(rotation.axis_direction)};
+  return {vector_of(rotation.axis_point), vector_of(rotation.axis_direction)};
 }
 
 /// Distance of a point from an axis.
@@ -37,15 +30,15 @@ RotationAxis axis_now(const Analysis& analysis, const InitialVelocity& rotation)
   constexpr double on_the_axis = 1e-3;  // of the largest radius
   auto axis = axis_in_deck(rotation);
   double largest = 0.0;
-  for (const auto row : rotation.nodes) largest = std::max(largest, radius(axis, vector(analysis.model.nodes.coordinates[row])));
+  for (const auto row : rotation.nodes) largest = std::max(largest, radius(axis, vector_of(analysis.model.nodes.coordinates[row])));
   const auto start = initial_rigid_bodies(analysis.model);
   for (std::size_t i = 0; i < start.size(); ++i) {
-    const auto hub = vector(start[i].position);
+    const auto hub = vector_of(start[i].position);
     if (std::ranges::count(rotation.nodes, analysis.model.rigid_bodies[i].reference_node) == 0) continue;
     if (radius(axis, hub) > on_the_axis * largest) continue;
     const auto& body = analysis.current.rigid_bodies[i];
     const auto turn = rotation_matrix(body);
-    return {vector(body.position) + turn * (axis.point - hub), turn * axis.direction};
+    return {vector_of(body.position) + turn * (axis.point - hub), turn * axis.direction};
   }
   return axis;
 }
@@ -68,7 +61,7 @@ void apply_to_bodies(Analysis& analysis, const InitialVelocity& initial, const R
         !body.nodes.empty() && std::all_of(body.nodes.begin(), body.nodes.end(),
                                            [&](const RigidNode& carried) { return in_set[carried.node]; });
     if (!all_nodes && !in_set[analysis.model.rigid_bodies[i].reference_node]) continue;
-    set_velocity(initial, axis, vector(body.position), body.velocity.data());
+    set_velocity(initial, axis, vector_of(body.position), body.velocity.data());
     if (initial.kind == InitialVelocity::Kind::rotation)
       body.angular_velocity = (initial.angular_speed * axis.direction).component;
   }
@@ -77,11 +70,11 @@ void apply_to_bodies(Analysis& analysis, const InitialVelocity& initial, const R
 /// Speed across an axis at which boundary conditions drive the reference node of a body past it; 0 if they do not.
 double passing_speed(const Analysis& analysis, const Step& step, std::int32_t body, const InitialVelocity& rotation,
                      const RotationAxis& axis) {
-  Vector3<double> velocity = -1.0 * vector(rotation.velocity);
+  Vector3<double> velocity = -1.0 * vector_of(rotation.velocity);
   for (const auto& condition : step.boundary) {
     if (condition.node != analysis.model.rigid_bodies[body].reference_node || condition.dof >= 3) continue;
     if (condition.kind != BoundaryCondition::Kind::velocity) continue;
-    velocity = velocity + condition.magnitude * vector(analysis.directions.direction(condition.node, condition.dof));
+    velocity = velocity + condition.magnitude * vector_of(analysis.directions.direction(condition.node, condition.dof));
   }
   const auto across = velocity - dot(velocity, axis.direction) * axis.direction;
   return std::sqrt(dot(across, across));
@@ -100,7 +93,7 @@ Radii radii_of(const Analysis& analysis, std::int32_t pair, const InitialVelocit
   Radii radii;
   for (std::int32_t point = 0; point < contact.size(); ++point) {
     if (!turns[analysis.domain.node_row[contact.nodes()[point]]]) continue;
-    const double r = radius(axis, vector(&analysis.current.position[4 * contact.nodes()[point]]));
+    const double r = radius(axis, vector_of(&analysis.current.position[4 * contact.nodes()[point]]));
     radii.free = std::max(radii.free, r);
     if (analysis.current.contact[pair][point].closed > 0.0) radii.loaded = std::min(radii.loaded, r);
   }
@@ -134,7 +127,7 @@ std::vector<Vector3<double>> positions_of(const Analysis& analysis, const std::v
       std::copy_n(&analysis.current.position[4 * static_cast<std::size_t>(node)], 3, &values[3 * i]);
   analysis.communicator.sum(std::span<double>(values));
   std::vector<Vector3<double>> positions;
-  for (std::size_t i = 0; i < rows.size(); ++i) positions.push_back(vector(&values[3 * i]));
+  for (std::size_t i = 0; i < rows.size(); ++i) positions.push_back(vector_of(&values[3 * i]));
   return positions;
 }
 
@@ -142,7 +135,7 @@ std::vector<Vector3<double>> positions_of(const Analysis& analysis, const std::v
 /// @return the number of nodes that do.
 std::size_t add_flow(Analysis& analysis, const InitialVelocity& rotation, const RotationAxis& axis) {
   std::vector<Vector3<double>> undeformed;
-  for (const auto row : rotation.nodes) undeformed.push_back(vector(analysis.model.nodes.coordinates[row]));
+  for (const auto row : rotation.nodes) undeformed.push_back(vector_of(analysis.model.nodes.coordinates[row]));
   const auto flow = flow_through_shape(undeformed, positions_of(analysis, rotation.nodes), axis_in_deck(rotation), axis);
   for (std::size_t i = 0; i < flow.size(); ++i) {
     const auto node = analysis.domain.local_node[rotation.nodes[i]];
@@ -165,7 +158,7 @@ void apply_initial_velocities(Analysis& analysis, const Step& step, Observer& ob
       in_set[row] = true;
       const auto node = analysis.domain.local_node[row];
       if (node < 0) continue;
-      set_velocity(initial, axis, vector(&state.position[4 * node]), &state.velocity[4 * node]);
+      set_velocity(initial, axis, vector_of(&state.position[4 * node]), &state.velocity[4 * node]);
       if (rotation && node < analysis.domain.turning)
         std::copy_n((initial.angular_speed * axis.direction).component.data(), 3, &state.angular_velocity[4 * node]);
     }

@@ -258,7 +258,7 @@ Outcome run_frequency_step(Analysis& analysis, const Step& step, Observer& obser
 }
 
 namespace {
-const RegisterProcedure<FrequencyProcedure> registered(run_frequency_step);
+const RegisterProcedure<FrequencyProcedure> frequency_procedure(run_frequency_step);
 }  // namespace
 
 }  // namespace balocco

@@ -11,11 +11,11 @@ namespace balocco {
 
 namespace {
 
-constexpr double no_limit = 1e299;  // increment of what does not resist
+constexpr double unlimited = 1e299;  // increment of what does not resist
 
 /// Increment of an element with its own mass that a target can be reached from.
 bool can_follow(const Analysis& analysis, double own_increment) {
-  return own_increment >= collapsing * analysis.undeformed_increment && own_increment < no_limit;
+  return own_increment >= collapsing * analysis.undeformed_increment && own_increment < unlimited;
 }
 
 bool has_mass(const ElementGroup& group) { return group.density() > 0.0; }
@@ -149,7 +149,7 @@ void MassScalingOfStep::scale(Analysis& analysis, const Definitions& definitions
     }
   };
   for_each([&](std::size_t d, double& scale, double) { scale *= definitions[d].factor; });
-  smallest_.assign(definitions.size(), -no_limit);  // less the smallest increment
+  smallest_.assign(definitions.size(), -unlimited);  // less the smallest increment
   for_each([&](std::size_t d, double scale, double own) {
     if (can_follow(analysis, own)) smallest_[d] = std::max(smallest_[d], -own * std::sqrt(scale));
   });
@@ -159,7 +159,7 @@ void MassScalingOfStep::scale(Analysis& analysis, const Definitions& definitions
     if (target == Target::none) return;
     const auto square = [](double x) { return x * x; };
     if (target == Target::uniform) {
-      if (smallest_[d] > -no_limit) scale *= square(increment / smallest_[d]);
+      if (smallest_[d] > -unlimited) scale *= square(increment / smallest_[d]);
     } else if (can_follow(analysis, own)) {
       const double needed = square(increment / own);
       if (target == Target::equal || needed > scale) scale = needed;

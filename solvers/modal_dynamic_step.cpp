@@ -16,7 +16,7 @@ namespace balocco {
 
 namespace {
 
-constexpr double growth = 1.5;  // of increments that are not fixed
+constexpr double free_growth = 1.5;  // of increments that are not fixed
 
 using Matrix = Eigen::MatrixXd;
 using Vector = Eigen::VectorXd;
@@ -131,7 +131,7 @@ double ModalDynamicStep::next_increment(double last) const {
   const double now = analysis_.current.step_time, resolution = 1e-9 * procedure_.duration;
   double increment = procedure_.increment;
   if (procedure_.largest_load_change) {
-    if (last > 0.0) increment = growth * last;
+    if (last > 0.0) increment = free_growth * last;
     if (const double change = load_change(now, std::min(now + increment, procedure_.duration));
         change > *procedure_.largest_load_change)
       increment *= *procedure_.largest_load_change / change;
@@ -254,7 +254,7 @@ Outcome run_modal_dynamic_step(Analysis& analysis, const Step& step, Observer& o
 }
 
 namespace {
-const RegisterProcedure<ModalDynamicProcedure> registered(run_modal_dynamic_step);
+const RegisterProcedure<ModalDynamicProcedure> modal_dynamic_procedure(run_modal_dynamic_step);
 }  // namespace
 
 }  // namespace balocco

@@ -135,7 +135,7 @@ Outcome run_static_step(Analysis& analysis, const Step& step, Observer& observer
 }
 
 namespace {
-const RegisterProcedure<StaticProcedure> registered(run_static_step);
+const RegisterProcedure<StaticProcedure> static_procedure(run_static_step);
 }  // namespace
 
 }  // namespace balocco

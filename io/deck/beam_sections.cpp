@@ -13,26 +13,24 @@ namespace balocco::deck {
 
 namespace {
 
-using Shape = BeamProfile::Shape;
-
 /// A profile, the names of the numbers on its data line, and what they must obey beyond being positive.
 struct ProfileForm {
   const char* word;
-  Shape shape;
+  BeamProfile::Shape shape;
   std::vector<const char*> dimensions;
 };
 
 const std::vector<ProfileForm>& profile_forms() {
   static const std::vector<ProfileForm> forms{
-      {"RECT", Shape::rectangle, {"width a along n1", "height b along n2"}},
-      {"CIRC", Shape::circle, {"radius"}},
-      {"PIPE", Shape::pipe, {"outer radius", "wall thickness"}},
+      {"RECT", BeamProfile::Shape::rectangle, {"width a along n1", "height b along n2"}},
+      {"CIRC", BeamProfile::Shape::circle, {"radius"}},
+      {"PIPE", BeamProfile::Shape::pipe, {"outer radius", "wall thickness"}},
       {"BOX",
-       Shape::box,
+       BeamProfile::Shape::box,
        {"width a along n1", "height b along n2", "wall thickness t1", "wall thickness t2", "wall thickness t3",
         "wall thickness t4"}},
       {"I",
-       Shape::i_section,
+       BeamProfile::Shape::i_section,
        {"distance l of the node from the bottom", "height h", "width b1 of the bottom flange", "width b2 of the top flange",
         "thickness t1 of the bottom flange", "thickness t2 of the top flange", "thickness t3 of the web"}}};
   return forms;
@@ -42,11 +40,11 @@ const std::vector<ProfileForm>& profile_forms() {
 std::string contradiction(const BeamProfile& profile) {
   const auto& d = profile.dimensions;
   switch (profile.shape) {
-    case Shape::pipe:
+    case BeamProfile::Shape::pipe:
       return d[1] > d[0] ? "the wall is thicker than the outer radius" : "";
-    case Shape::box:
+    case BeamProfile::Shape::box:
       return d[2] + d[4] >= d[0] || d[3] + d[5] >= d[1] ? "the walls fill the box; use SECTION=RECT or thinner walls" : "";
-    case Shape::i_section: {
+    case BeamProfile::Shape::i_section: {
       if (d[4] + d[5] >= d[1]) return "the flanges are thicker than the section is high";
       const double middle = centroid_height(profile);
       if (std::abs(d[0] - middle) > 1e-6 * d[1])
@@ -58,7 +56,7 @@ std::string contradiction(const BeamProfile& profile) {
 }
 
 /// The direction n1 of the second data line; without one (0, 0, -1).
-bool read_direction(Builder& builder, const Block& block, BeamProfile& profile) {
+bool read_beam_direction(Builder& builder, const Block& block, BeamProfile& profile) {
   if (block.lines.size() < 2) return true;
   Row row(builder, block, block.lines[1]);
   for (int i = 0; i < 3; ++i) profile.n1[i] = row.real_or(i, i == 2 && !row.has(0) && !row.has(1) ? -1.0 : 0.0, "direction n1");
@@ -102,11 +100,11 @@ void read_beam_section(Builder& builder, const Block& block) {
   row.at_most(form->dimensions.size());
   if (!row.ok()) return;
   if (const auto wrong = contradiction(section->beam); !wrong.empty()) return row.error(wrong);
-  if (!read_direction(builder, block, section->beam) || !check_direction(builder, block, section->beam, elements)) return;
+  if (!read_beam_direction(builder, block, section->beam) || !check_direction(builder, block, section->beam, elements)) return;
   assign_section(builder, block, *std::move(section), elements);
 }
 
-void read_general_section(Builder& builder, const Block& block) {
+void read_general_beam_section(Builder& builder, const Block& block) {
   std::vector<ElementRef> elements;
   auto section = begin_section(builder, block, elements);
   if (!section) return;
@@ -131,7 +129,7 @@ void read_general_section(Builder& builder, const Block& block) {
   moduli.at_most(2);
   if (moduli.ok() && !(profile.youngs_modulus > 0.0 && profile.shear_modulus > 0.0)) moduli.error("the moduli must be positive");
   if (!row.ok() || !moduli.ok()) return;
-  if (!read_direction(builder, block, profile) || !check_direction(builder, block, profile, elements)) return;
+  if (!read_beam_direction(builder, block, profile) || !check_direction(builder, block, profile, elements)) return;
   assign_section(builder, block, *std::move(section), elements);
 }
 
@@ -148,18 +146,18 @@ void read_shear_stiffness(Builder& builder, const Block& block) {
   if (row.ok()) sections.back().beam.shear_stiffness = {k13, k23};
 }
 
-const RegisterKeyword section{{"BEAM SECTION",
+const RegisterKeyword beam_section{{"BEAM SECTION",
                                Phase::sections,
                                Place::model,
                                {required(name("ELSET")), required(name("MATERIAL")),
                                 required(choice("SECTION", {"RECT", "CIRC", "PIPE", "BOX", "I"})), foreign("TEMPERATURE")},
                                read_beam_section}};
-const RegisterKeyword general{{"BEAM GENERAL SECTION",
+const RegisterKeyword general_beam_section{{"BEAM GENERAL SECTION",
                                Phase::sections,
                                Place::model,
                                {required(name("ELSET")), choice("SECTION", {"GENERAL"}), real("DENSITY")},
-                               read_general_section}};
-const RegisterKeyword shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_shear_stiffness}};
+                               read_general_beam_section}};
+const RegisterKeyword beam_shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_shear_stiffness}};
 
 }  // namespace
 

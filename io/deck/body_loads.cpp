@@ -114,7 +114,7 @@ void read_body_load(Builder& builder, const Block& block, Row& row, std::int32_t
   load.file = row.location().file;
   load.line = row.location().line;
   builder.draft.said.insert({load.file, load.line});
-  auto& loads = current(builder).body_loads;
+  auto& loads = current_step(builder).body_loads;
   const auto found = std::ranges::find_if(loads, [&](const BodyLoad& other) { return replaces(load, other); });
   if (found == loads.end()) {
     loads.push_back(load);

@@ -180,6 +180,10 @@ class Row {
   std::string name(int field) const;
   double real(int field, const char* what);
   double real_or(int field, double otherwise, const char* what) { return has(field) ? real(field, what) : otherwise; }
+  /// Coordinates in fields `first`..; one that is left out is zero.
+  Point point(int first, const char* what) {
+    return {real_or(first, 0.0, what), real_or(first + 1, 0.0, what), real_or(first + 2, 0.0, what)};
+  }
   std::int64_t integer(int field, const char* what);
   std::int64_t integer_or(int field, std::int64_t otherwise, const char* what) {
     return has(field) ? integer(field, what) : otherwise;
@@ -199,5 +203,9 @@ class Row {
   std::vector<std::string_view> fields_;
   bool ok_ = true;
 };
+
+inline Step& current_step(Builder& builder) {
+  return builder.model.steps.back();
+}
 
 }  // namespace balocco::deck

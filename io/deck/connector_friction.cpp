@@ -33,7 +33,7 @@ void read_derived(Builder& builder, const Block& block) {
 }
 
 /// The force that presses the parts together: an internal one, and those of held components.
-void read_friction(Builder& builder, const Block& block) {
+void read_connector_friction(Builder& builder, const Block& block) {
   if (block.has("PREDEFINED"))
     return builder.error(block, block.location,
                          "PREDEFINED is not supported; say COMPONENT=, and CONTACT FORCE= with a *CONNECTOR DERIVED COMPONENT or an internal force");
@@ -67,11 +67,11 @@ void read_friction(Builder& builder, const Block& block) {
 
 const RegisterKeyword derived{
     {"CONNECTOR DERIVED COMPONENT", Phase::definitions, Place::model, {required(name("NAME")), choice("OPERATOR", {"NORM"})}, read_derived, "CONNECTOR BEHAVIOR"}};
-const RegisterKeyword friction{{"CONNECTOR FRICTION",
+const RegisterKeyword connector_friction{{"CONNECTOR FRICTION",
                                 Phase::definitions,
                                 Place::model,
                                 {required(integer("COMPONENT")), name("CONTACT FORCE"), flag("PREDEFINED")},
-                                read_friction,
+                                read_connector_friction,
                                 "CONNECTOR BEHAVIOR"}};
 
 }  // namespace

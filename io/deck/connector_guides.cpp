@@ -133,21 +133,15 @@ std::vector<Actuated> read_actuated(Builder& builder, const Block& block, Row& r
   return result;
 }
 
-BoundaryCondition::Kind kind_of(const Block& block) {
-  const std::string type = block.value("TYPE", "DISPLACEMENT");
-  if (type == "VELOCITY") return BoundaryCondition::Kind::velocity;
-  return type == "ACCELERATION" ? BoundaryCondition::Kind::acceleration : BoundaryCondition::Kind::displacement;
-}
-
 void read_motion(Builder& builder, const Block& block) {
-  auto& motions = current(builder).connector_motions;
+  auto& motions = current_step(builder).connector_motions;
   if (block.value("OP") == "NEW") std::erase_if(motions, [](const auto& motion) { return motion.course.propagated; });
   const auto amplitude = amplitude_of(builder, block);
   if (!amplitude) return;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     ConnectorMotion motion;
-    motion.course.kind = kind_of(block);
+    motion.course.kind = kind_of_motion(block);
     motion.course.amplitude = *amplitude;
     motion.course.fixed = block.has("FIXED");
     motion.course.file = line.location.file;
@@ -169,7 +163,7 @@ void read_motion(Builder& builder, const Block& block) {
 }
 
 void read_load(Builder& builder, const Block& block) {
-  auto& loads = current(builder).connector_loads;
+  auto& loads = current_step(builder).connector_loads;
   if (block.value("OP") == "NEW") take_away(builder, loads);
   const auto amplitude = amplitude_of(builder, block);
   if (!amplitude) return;

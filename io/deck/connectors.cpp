@@ -237,7 +237,7 @@ void read_elasticity(Builder& builder, const Block& block) {
   read_curve(builder, block, &ConnectorComponent::elasticity, builder.connector_behavior->coupled_elasticity, "relative motion");
 }
 
-void read_damping(Builder& builder, const Block& block) {
+void read_connector_damping(Builder& builder, const Block& block) {
   read_curve(builder, block, &ConnectorComponent::damping, builder.connector_behavior->coupled_damping, "relative velocity");
 }
 
@@ -253,13 +253,13 @@ void read_reference(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword section{
+const RegisterKeyword connector_section{
     {"CONNECTOR SECTION", Phase::sections, Place::model, {required(name("ELSET")), name("BEHAVIOR")}, read_section}};
-const RegisterKeyword behavior{{"CONNECTOR BEHAVIOR", Phase::definitions, Place::model, {required(name("NAME"))}, read_behavior}};
+const RegisterKeyword connector_behavior{{"CONNECTOR BEHAVIOR", Phase::definitions, Place::model, {required(name("NAME"))}, read_behavior}};
 const RegisterKeyword elasticity{
     {"CONNECTOR ELASTICITY", Phase::definitions, Place::model, {integer("COMPONENT"), flag("NONLINEAR")}, read_elasticity, "CONNECTOR BEHAVIOR"}};
-const RegisterKeyword damping{
-    {"CONNECTOR DAMPING", Phase::definitions, Place::model, {integer("COMPONENT"), flag("NONLINEAR")}, read_damping, "CONNECTOR BEHAVIOR"}};
+const RegisterKeyword connector_damping{
+    {"CONNECTOR DAMPING", Phase::definitions, Place::model, {integer("COMPONENT"), flag("NONLINEAR")}, read_connector_damping, "CONNECTOR BEHAVIOR"}};
 const RegisterKeyword reference{
     {"CONNECTOR CONSTITUTIVE REFERENCE", Phase::definitions, Place::model, {}, read_reference, "CONNECTOR BEHAVIOR"}};
 

@@ -111,7 +111,7 @@ void declare(Builder& builder, const Block& block, std::int32_t reference) {
 }
 
 /// Inside a step: TIE NSET and PIN NSET attach nodes where they stand, RELEASE NSET lets them go.
-void change(Builder& builder, const Block& block, std::int32_t body) {
+void change_rigid_body(Builder& builder, const Block& block, std::int32_t body) {
   Step& step = builder.model.steps.back();
   const auto add = [&](const char* parameter, bool tie, bool release) {
     if (!block.has(parameter)) return;
@@ -140,7 +140,7 @@ void read_rigid_body(Builder& builder, const Block& block) {
   const auto known = builder.body_of_reference.find(*reference);
   const std::string id = builder.model.node_name(*reference);
   if (builder.in_step) {
-    if (known != builder.body_of_reference.end()) return change(builder, block, known->second);
+    if (known != builder.body_of_reference.end()) return change_rigid_body(builder, block, known->second);
     if (builder.is_poisoned(block.value("REF NODE"))) return;
     return builder.error(block, block.location,
                          fmt::format("node {} is not the reference node of a rigid body; declare *RIGID BODY, "
@@ -156,12 +156,12 @@ void read_rigid_body(Builder& builder, const Block& block) {
   declare(builder, block, *reference);
 }
 
-const std::vector<ParameterRule> parameters{required(name("REF NODE")), name("ELSET"),
+const std::vector<ParameterRule> rigid_body_parameters{required(name("REF NODE")), name("ELSET"),
                                             name("PIN NSET"),           name("TIE NSET"), name("NSET"), name("ROT NODE"),
                                             name("RELEASE NSET"),       choice("POSITION", {"INPUT", "CENTER OF MASS"}),
                                             name("ANALYTICAL SURFACE")};
 
-const RegisterKeyword rigid_body{{"RIGID BODY", Phase::constraints, Place::anywhere, parameters, read_rigid_body}};
+const RegisterKeyword rigid_body{{"RIGID BODY", Phase::constraints, Place::anywhere, rigid_body_parameters, read_rigid_body}};
 
 }  // namespace
 

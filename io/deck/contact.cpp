@@ -14,7 +14,7 @@ namespace balocco::deck {
 
 namespace {
 
-Interaction& current(Builder& builder) {
+Interaction& current_interaction(Builder& builder) {
   return builder.model.interactions.back();
 }
 
@@ -52,7 +52,7 @@ void read_friction(Builder& builder, const Block& block) {
     return;
   }
   if (builder.model.interactions.empty()) return;  // the *CONNECTOR FRICTION above it is wrong, which has been told
-  current(builder).friction = coefficient;
+  current_interaction(builder).friction = coefficient;
   if (block.has("SLIP TOLERANCE")) {
     const double tolerance = block.real("SLIP TOLERANCE", 0.0);
     if (!(tolerance > 0.0) || block.has("ELASTIC SLIP")) {
@@ -62,8 +62,8 @@ void read_friction(Builder& builder, const Block& block) {
     builder.slip_tolerance[static_cast<std::int32_t>(builder.model.interactions.size()) - 1] = tolerance;
   }
   if (block.has("ELASTIC SLIP")) {
-    current(builder).elastic_slip = block.real("ELASTIC SLIP", 0.0);
-    if (!(*current(builder).elastic_slip > 0.0))
+    current_interaction(builder).elastic_slip = block.real("ELASTIC SLIP", 0.0);
+    if (!(*current_interaction(builder).elastic_slip > 0.0))
       builder.error(block, block.location, "ELASTIC SLIP must be positive; correct it");
   }
 }
@@ -79,7 +79,7 @@ void read_surface_behavior(Builder& builder, const Block& block) {
   const double scale = row.real_or(0, 1.0, "scale of the penalty stiffness");
   row.at_most(1);
   if (row.ok() && !(scale > 0.0)) row.error(fmt::format("scale {} must be positive; correct it", scale));
-  current(builder).penalty_scale = scale;
+  current_interaction(builder).penalty_scale = scale;
 }
 
 std::optional<std::array<std::int32_t, 2>> surfaces_of(Builder& builder, const Block& block, Row& row) {
@@ -254,7 +254,7 @@ const RegisterKeyword friction{{"FRICTION",
                                 {real("ELASTIC SLIP"), real("SLIP TOLERANCE")},
                                 read_friction,
                                 "SURFACE INTERACTION or CONNECTOR BEHAVIOR"}};
-const RegisterKeyword behavior{{"SURFACE BEHAVIOR",
+const RegisterKeyword surface_behavior{{"SURFACE BEHAVIOR",
                                 Phase::definitions,
                                 Place::anywhere,
                                 {choice("PRESSURE-OVERCLOSURE", {"HARD"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
@@ -268,7 +268,7 @@ const RegisterKeyword pair{
       choice("MECHANICAL CONSTRAINT", {"PENALTY", "KINEMATIC"}), choice("OP", {"ADD", "DELETE"}), name("CPSET"),
       foreign("NO THICKNESS"), foreign("WEIGHT"), foreign("SMALL SLIDING")},
      read_pair}};
-const RegisterKeyword change{{"MODEL CHANGE",
+const RegisterKeyword model_change{{"MODEL CHANGE",
                               Phase::history,
                               Place::step,
                               {required(choice("TYPE", {"CONTACT PAIR", "ELEMENT"})),

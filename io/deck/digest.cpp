@@ -10,7 +10,7 @@ namespace balocco::deck {
 
 namespace {
 
-using Words = std::array<std::uint32_t, 8>;
+using HashWords = std::array<std::uint32_t, 8>;
 
 /// Round constants: the first 32 bits of the fractional parts of the cube roots of the first 64 primes.
 constexpr std::array<std::uint32_t, 64> round_constants{
@@ -23,7 +23,7 @@ constexpr std::array<std::uint32_t, 64> round_constants{
     0x19a4c116, 0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
     0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7, 0xc67178f2};
 
-void compress(Words& hash, const unsigned char* chunk) {
+void compress(HashWords& hash, const unsigned char* chunk) {
   std::array<std::uint32_t, 64> w{};
   for (int t = 0; t < 16; ++t) {
     w[t] = std::uint32_t{chunk[4 * t]} << 24 | std::uint32_t{chunk[4 * t + 1]} << 16 |
@@ -42,7 +42,7 @@ void compress(Words& hash, const unsigned char* chunk) {
     const std::uint32_t t2 = sum0 + ((a & b) ^ (a & c) ^ (b & c));
     h = g, g = f, f = e, e = d + t1, d = c, c = b, b = a, a = t1 + t2;
   }
-  const Words sums{a, b, c, d, e, f, g, h};
+  const HashWords sums{a, b, c, d, e, f, g, h};
   for (int i = 0; i < 8; ++i) hash[i] += sums[i];
 }
 
@@ -68,7 +68,7 @@ class Sha256 {
     if (size_ % 64 == 0) compress(hash_, chunk_.data());
   }
 
-  Words hash_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
+  HashWords hash_{0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a, 0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   std::array<unsigned char, 64> chunk_{};
   std::uint64_t size_ = 0;
 };

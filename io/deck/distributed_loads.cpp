@@ -17,12 +17,12 @@ namespace {
 void renew_distributed(Builder& builder, const Block& block) {
   if (block.value("OP") != "NEW" || builder.draft.distributed_renewed) return;
   builder.draft.distributed_renewed = true;
-  take_away(builder, current(builder).pressures);
-  take_away(builder, current(builder).body_loads);
+  take_away(builder, current_step(builder).pressures);
+  take_away(builder, current_step(builder).body_loads);
 }
 
 void set_pressure(Builder& builder, std::int32_t surface, double magnitude, std::int32_t amplitude, Location location) {
-  auto& pressures = current(builder).pressures;
+  auto& pressures = current_step(builder).pressures;
   auto found = std::find_if(pressures.begin(), pressures.end(),
                             [&](const PressureLoad& load) { return load.surface == surface; });
   if (found == pressures.end()) found = pressures.insert(pressures.end(), PressureLoad{surface});

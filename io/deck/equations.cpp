@@ -44,7 +44,7 @@ class Fields {
   int field_ = 0;
 };
 
-void add(Builder& builder, ConstraintKind kind, std::string keyword, Location location) {
+void add_constraint(Builder& builder, ConstraintKind kind, std::string keyword, Location location) {
   builder.model.constraints.push_back({std::move(kind), std::move(keyword), location.file, location.line});
 }
 
@@ -146,14 +146,14 @@ void read_equation(Builder& builder, const Block& block) {
       LinearEquation equation;
       for (const auto& term : terms)
         equation.terms.push_back({term.nodes.size() > 1 ? term.nodes[k] : term.nodes[0], term.dof, term.coefficient});
-      add(builder, std::move(equation), "*EQUATION", location);
+      add_constraint(builder, std::move(equation), "*EQUATION", location);
     }
   }
 }
 
 void add_equal(Builder& builder, std::int32_t first, std::int32_t second, int freedoms, Location location) {
   for (std::int32_t dof = 0; dof < freedoms; ++dof)
-    add(builder, LinearEquation{{{first, dof, 1.0}, {second, dof, -1.0}}}, "*MPC", location);
+    add_constraint(builder, LinearEquation{{{first, dof, 1.0}, {second, dof, -1.0}}}, "*MPC", location);
 }
 
 /// The nodes of a line from field 1 on: numbers or sets, in the order of the deck.
@@ -187,7 +187,7 @@ void read_alignment(Builder& builder, const Block& block, Row& row, std::vector<
   for (std::size_t i = base; i < nodes.size(); ++i) {
     Alignment alignment{{nodes.begin(), nodes.begin() + static_cast<std::ptrdiff_t>(base)}};
     alignment.nodes.push_back(nodes[i]);
-    add(builder, std::move(alignment), "*MPC", row.location());
+    add_constraint(builder, std::move(alignment), "*MPC", row.location());
   }
 }
 
@@ -199,7 +199,7 @@ void read_rope(Builder& builder, Row& row, const std::vector<std::int32_t>& node
   const double distance = builder.model.nodes.coordinates[nodes[6]][0];
   if (!(distance > 0.0))
     return row.error(fmt::format("the first coordinate of node {}, the greatest distance, is {}; give a positive one", builder.model.node_name(nodes[6]), distance));
-  add(builder, GreatestDistance{{nodes[0], nodes[3]}, distance}, "*MPC", row.location());
+  add_constraint(builder, GreatestDistance{{nodes[0], nodes[3]}, distance}, "*MPC", row.location());
 }
 
 /// Unit vector from a node to another; none where both are in one place.
@@ -242,10 +242,12 @@ void read_turning_joint(Builder& builder, const Block& block, Row& row, const st
   const auto about = axes_about(axis);
   // Rows: the first axis first; of a universal joint the second one third.
   const std::array<Point, 3> axes = across ? std::array<Point, 3>{axis, cross((*across)[1], axis), (*across)[1]} : std::array<Point, 3>{axis, about[0], about[1]};
-  add(builder,
-      Joint{.nodes = {nodes[1], nodes[0]}, .pieces = {{.part = universal ? Joint::Part::universal : Joint::Part::revolute}}, .axes = axes,
-            .second_axes = axes},
-      "*MPC", row.location());
+  add_constraint(builder,
+                 Joint{.nodes = {nodes[1], nodes[0]},
+                       .pieces = {{.part = universal ? Joint::Part::universal : Joint::Part::revolute}},
+                       .axes = axes,
+                       .second_axes = axes},
+                 "*MPC", row.location());
 }
 
 /// MEANROT: a, a, a, b, b, b ... c: the mean angle by which nodes a, b ... turn about the direction that the coordinates of c say
@@ -274,7 +276,7 @@ void read_mean_rotation(Builder& builder, Row& row, std::vector<std::int32_t> no
       return row.error(fmt::format("node {} lies on the axis through the centre of the nodes, where it has no angle; take it out",
                                    builder.model.node_name(node)));
   }
-  add(builder, std::move(rotation), "*MPC", row.location());
+  add_constraint(builder, std::move(rotation), "*MPC", row.location());
 }
 
 void read_mpc(Builder& builder, const Block& block) {
@@ -333,7 +335,7 @@ void read_mpc(Builder& builder, const Block& block) {
         joint.pieces = {{.part = Joint::Part::offset}, {.part = Joint::Part::align}};
       else
         joint.pieces = {{.part = Joint::Part::offset}};
-      add(builder, std::move(joint), "*MPC", line.location);
+      add_constraint(builder, std::move(joint), "*MPC", line.location);
     }
   }
 }

@@ -1,12 +1,15 @@
-// What the keywords of loads have in common: the step that they belong to, their amplitude, and OP=NEW.
+// What the keywords of loads have in common: the kind of a motion, their amplitude, and OP=NEW.
 #pragma once
 
 #include "deck/builder.hpp"
 
 namespace balocco::deck {
 
-inline Step& current(Builder& builder) {
-  return builder.model.steps.back();
+/// What TYPE= says that a motion prescribes.
+inline BoundaryCondition::Kind kind_of_motion(const Block& block) {
+  const std::string type = block.value("TYPE", "DISPLACEMENT");
+  if (type == "VELOCITY") return BoundaryCondition::Kind::velocity;
+  return type == "ACCELERATION" ? BoundaryCondition::Kind::acceleration : BoundaryCondition::Kind::displacement;
 }
 
 /// Row of the amplitude that a block names, later by its TIME DELAY; -1: it names none; nothing: the amplitude is not defined or

@@ -81,7 +81,7 @@ std::optional<Freedoms> freedoms_of(Row& row) {
 
 void set_condition(Builder& builder, const BoundaryCondition& condition) {
   if (!builder.in_step) return builder.initial_boundary.push_back(condition);
-  auto& boundary = current(builder).boundary;
+  auto& boundary = current_step(builder).boundary;
   const auto [place, added] =
       builder.draft.boundary_of.emplace(std::int64_t{condition.node} * 6 + condition.dof, boundary.size());
   if (added) {
@@ -96,7 +96,7 @@ void renew_boundary(Builder& builder, const Block& block) {
   if (block.value("OP") != "NEW" || builder.draft.boundary_renewed) return;
   builder.draft.boundary_renewed = true;
   builder.draft.boundary_of.clear();
-  auto& boundary = current(builder).boundary;
+  auto& boundary = current_step(builder).boundary;
   const bool first_step = builder.model.steps.size() == 1;
   std::erase_if(boundary, [&](const BoundaryCondition& c) {
     return (c.propagated || first_step) && !builder.ground_nodes.contains(c.node);
@@ -104,12 +104,6 @@ void renew_boundary(Builder& builder, const Block& block) {
   for (std::size_t row = 0; row < boundary.size(); ++row) {
     builder.draft.boundary_of[std::int64_t{boundary[row].node} * 6 + boundary[row].dof] = row;
   }
-}
-
-BoundaryCondition::Kind kind_of(const Block& block) {
-  const std::string type = block.value("TYPE", "DISPLACEMENT");
-  if (type == "VELOCITY") return BoundaryCondition::Kind::velocity;
-  return type == "ACCELERATION" ? BoundaryCondition::Kind::acceleration : BoundaryCondition::Kind::displacement;
 }
 
 /// Whether Abaqus makes that freedom the angle of a joint; told.
@@ -165,13 +159,13 @@ void read_boundary(Builder& builder, const Block& block) {
   if (builder.in_step) {
     renew_boundary(builder, block);
   } else if (block.has("OP") || block.has("AMPLITUDE") || block.has("FIXED") ||
-             kind_of(block) != BoundaryCondition::Kind::displacement) {
+             kind_of_motion(block) != BoundaryCondition::Kind::displacement) {
     return builder.error(block, block.location, "before the first step it takes no parameters; move it into a *STEP");
   }
   const auto amplitude = amplitude_of(builder, block);
   if (!amplitude) return;
   BoundaryCondition condition;
-  condition.kind = kind_of(block);
+  condition.kind = kind_of_motion(block);
   condition.amplitude = *amplitude;
   condition.fixed = block.has("FIXED");
   Rotations rotations(builder);
@@ -183,7 +177,7 @@ void read_boundary(Builder& builder, const Block& block) {
 }
 
 void read_concentrated(Builder& builder, const Block& block) {
-  auto& loads = current(builder).concentrated_loads;
+  auto& loads = current_step(builder).concentrated_loads;
   auto& index = builder.draft.concentrated_of;
   if (block.value("OP") == "NEW" && !builder.draft.concentrated_renewed) {
     take_away(builder, loads);

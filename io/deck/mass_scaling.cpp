@@ -19,7 +19,7 @@ bool scales(const ElementType& type) {
 }
 
 /// The set that the block names, or -1; empty: an error was told.
-std::optional<std::int32_t> set_of(Builder& builder, const Block& block) {
+std::optional<std::int32_t> scaled_set(Builder& builder, const Block& block) {
   if (!block.has("ELSET")) return -1;
   const auto set = builder.require(builder.element_sets, block.value("ELSET"), block, block.location);
   if (!set) return std::nullopt;
@@ -64,7 +64,7 @@ void read_fixed(Builder& builder, const Block& block) {
   definition.factor = block.real("FACTOR", 1.0);
   if (!(definition.factor > 0.0))
     return builder.error(block, block.location, fmt::format("FACTOR={} must be positive; correct it", definition.factor));
-  const auto set = set_of(builder, block);
+  const auto set = scaled_set(builder, block);
   if (!set || !read_target(builder, block, definition)) return;
   definition.element_set = *set;
   said.push_back(definition);
@@ -82,7 +82,7 @@ void read_variable(Builder& builder, const Block& block) {
     return said.clear();
   }
   MassScaling definition;
-  const auto set = set_of(builder, block);
+  const auto set = scaled_set(builder, block);
   if (!set || !read_target(builder, block, definition)) return;
   definition.element_set = *set;
   const bool by_increments = block.has("FREQUENCY"), by_intervals = block.has("NUMBER INTERVAL");
@@ -109,7 +109,7 @@ const RegisterKeyword fixed{
      .place = Place::step,
      .parameters = {real("FACTOR"), real("DT"), choice("TYPE", {"UNIFORM", "BELOW MIN", "SET EQUAL DT"}), name("ELSET")},
      .handler = read_fixed}};
-const RegisterKeyword variable{{.keyword = "VARIABLE MASS SCALING",
+const RegisterKeyword variable_mass_scaling{{.keyword = "VARIABLE MASS SCALING",
                                 .phase = Phase::history,
                                 .place = Place::step,
                                 .parameters = {real("DT"), choice("TYPE", {"UNIFORM", "BELOW MIN", "SET EQUAL DT"}),

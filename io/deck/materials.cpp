@@ -16,7 +16,7 @@ namespace balocco::deck {
 
 namespace {
 
-Material& current(Builder& builder) {
+Material& current_material(Builder& builder) {
   return builder.model.materials.back();
 }
 
@@ -41,13 +41,13 @@ void read_density(Builder& builder, const Block& block) {
   row.at_most(2);
   if (block.lines.size() > 1) no_tables(builder, block, block.lines[1].location);
   if (row.ok() && !(density > 0.0)) row.error(fmt::format("density {} must be positive; correct it", density));
-  current(builder).density = density;
+  current_material(builder).density = density;
 }
 
 void read_damping(Builder& builder, const Block& block) {
-  current(builder).damping_alpha = block.real("ALPHA", 0.0);
-  current(builder).damping_beta = block.real("BETA", 0.0);
-  if (current(builder).damping_alpha < 0.0 || current(builder).damping_beta < 0.0) {
+  current_material(builder).damping_alpha = block.real("ALPHA", 0.0);
+  current_material(builder).damping_beta = block.real("BETA", 0.0);
+  if (current_material(builder).damping_alpha < 0.0 || current_material(builder).damping_beta < 0.0) {
     builder.error(block, block.location, "ALPHA and BETA must not be negative; correct them");
   }
 }
@@ -155,7 +155,7 @@ void warn_if_incompressible(Builder& builder, const Block& block, const Material
   if (block.keyword != "HYPERELASTIC") return;
   for (std::size_t i = 0; i < law.parameters.size(); ++i) {
     const ParameterSpec& spec = law.parameters[i];
-    if (spec.name == "D1" && current(builder).parameters[i] == 0.0) {
+    if (spec.name == "D1" && current_material(builder).parameters[i] == 0.0) {
       builder.warning(block, block.location, fmt::format("{} is zero or left out ({})", spec.name, spec.description));
     }
   }
@@ -163,7 +163,7 @@ void warn_if_incompressible(Builder& builder, const Block& block, const Material
 
 void warn_if_unstable(Builder& builder, const Block& block) {
   try {
-    const std::string text = unstable_range(*make_law<PointKind::solid>(current(builder)));
+    const std::string text = unstable_range(*make_law<PointKind::solid>(current_material(builder)));
     if (!text.empty()) builder.warning(block, block.location, text);
   } catch (const InputError&) {  // told when all of the material is known
   }
@@ -172,7 +172,7 @@ void warn_if_unstable(Builder& builder, const Block& block) {
 void read_law(Builder& builder, const Block& block) {
   const MaterialLaw* law = chosen_law(builder, block);
   if (law == nullptr) return;
-  Material& material = current(builder);
+  Material& material = current_material(builder);
   if (!material.law.empty()) {
     return builder.error(block, block.location,
                          fmt::format("material {} already has the law {}; keep one", material.name, material.law));
@@ -246,11 +246,11 @@ void read_option(Builder& builder, const Block& block) {
   MaterialOption result;
   result.name = option->name;
   if (!read_settings(builder, block, *option, result)) return;
-  auto& present = current(builder).options;
+  auto& present = current_material(builder).options;
   for (const auto& other : present) {
     const OptionSpec* spec = find_material_option(other.name);
     if (spec->keyword != option->keyword || (spec == option && option->repeatable)) continue;
-    return builder.error(block, block.location, fmt::format("material {} has it already; keep one", current(builder).name));
+    return builder.error(block, block.location, fmt::format("material {} has it already; keep one", current_material(builder).name));
   }
   if (block.lines.empty()) return builder.error(block, block.location, "the parameters are missing; add a data line");
   const auto columns = columns_of(*option, result);

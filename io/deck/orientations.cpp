@@ -17,13 +17,6 @@ namespace {
 
 using Axes = std::array<Point, 3>;
 
-/// Point of fields `first`.. of a row.
-Point point_of(Row& row, int first, const char* what) {
-  Point point;
-  for (int i = 0; i < 3; ++i) point[i] = row.real_or(first + i, 0.0, what);
-  return point;
-}
-
 /// Axes of a cylindrical system about the line from a to b.
 std::optional<std::array<Point, 3>> cylindrical_axes(const Point& a, const Point& b) {
   Point axis = subtract(b, a);
@@ -53,7 +46,7 @@ std::optional<DefiningPoints> points_by_nodes(Builder& builder, const Block& blo
 }
 
 std::optional<DefiningPoints> points_by_coordinates(Row& row, bool cylindrical) {
-  const DefiningPoints points{.a = point_of(row, 0, "point a"), .b = point_of(row, 3, "point b"), .c = point_of(row, 6, "point c")};
+  const DefiningPoints points{.a = row.point(0, "point a"), .b = row.point(3, "point b"), .c = row.point(6, "point c")};
   row.at_most(cylindrical ? 6 : 9);
   return row.ok() ? std::optional(points) : std::nullopt;
 }
@@ -146,7 +139,7 @@ void read_distribution(Builder& builder, const Block& block) {
                          fmt::format("table {} is not defined; define it under *DISTRIBUTION TABLE", block.value("TABLE")));
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
-    const Point a = point_of(row, 1, "point a"), b = point_of(row, 4, "point b");
+    const Point a = row.point(1, "point a"), b = row.point(4, "point b");
     row.at_most(7);
     if (!row.ok()) continue;
     auto axes = axes_of_points({}, a, b);
@@ -184,7 +177,7 @@ void read_transform(Builder& builder, const Block& block) {
   if (!builder.nodes_of(block.value("NSET"), block, block.location, transform.nodes)) return;
   if (block.lines.empty()) return builder.error(block, block.location, "it has no data; add the points a and b");
   Row row(builder, block, block.lines[0]);
-  const Point a = point_of(row, 0, "point a"), b = point_of(row, 3, "point b");
+  const Point a = row.point(0, "point a"), b = row.point(3, "point b");
   row.at_most(6);
   if (!row.ok()) return;
   auto& directions = transform.directions;

@@ -12,10 +12,6 @@ namespace balocco::deck {
 
 namespace {
 
-Step& current(Builder& builder) {
-  return builder.model.steps.back();
-}
-
 FieldOutput preselected_field() {
   FieldOutput output;
   output.node_variables = preselected_node;
@@ -47,7 +43,7 @@ bool set_times(Builder& builder, const Block& block, FieldOutput& output) {
 }
 
 void begin_field(Builder& builder, const Block& block) {
-  Step& step = current(builder);
+  Step& step = current_step(builder);
   if (!builder.draft.field_replaced && block.value("OP", "NEW") == "NEW") step.field_outputs.clear();
   builder.draft.field_replaced = true;
   // Without FIELD it only says when frames are written, as CalculiX has it.
@@ -69,7 +65,7 @@ void begin_field(Builder& builder, const Block& block) {
 }
 
 void begin_history(Builder& builder, const Block& block) {
-  Step& step = current(builder);
+  Step& step = current_step(builder);
   if (!builder.draft.history_replaced && block.value("OP", "NEW") == "NEW") step.history_outputs.clear();
   builder.draft.history_replaced = true;
   for (const char* parameter : {"TIME POINTS", "PRECISION"}) {

@@ -78,15 +78,14 @@ void read_energy_output(Builder& builder, const Block& block) {
   });
 }
 
-const ParameterRule variable = choice("VARIABLE", {"PRESELECT", "ALL"});
 const RegisterKeyword contact_output{{"CONTACT OUTPUT",
                                       Phase::history,
                                       Place::step,
-                                      {name("SLAVE"), name("MASTER"), name("CPSET"), variable},
+                                      {name("SLAVE"), name("MASTER"), name("CPSET"), variable_rule()},
                                       read_contact_output,
                                       "OUTPUT"}};
 const RegisterKeyword energy_output{
-    {"ENERGY OUTPUT", Phase::history, Place::step, {variable}, read_energy_output, "OUTPUT"}};
+    {"ENERGY OUTPUT", Phase::history, Place::step, {variable_rule()}, read_energy_output, "OUTPUT"}};
 
 }  // namespace
 

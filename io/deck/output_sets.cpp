@@ -121,14 +121,13 @@ void read_element_output(Builder& builder, const Block& block) {
   if (builder.draft.output == StepDraft::Output::history) read_element_history(builder, block);
 }
 
-const ParameterRule variable = choice("VARIABLE", {"PRESELECT", "ALL"});
 const RegisterKeyword node_output{
-    {"NODE OUTPUT", Phase::history, Place::step, {name("NSET"), variable}, read_node_output, "OUTPUT"}};
+    {"NODE OUTPUT", Phase::history, Place::step, {name("NSET"), variable_rule()}, read_node_output, "OUTPUT"}};
 const RegisterKeyword element_output{
     {"ELEMENT OUTPUT",
      Phase::history,
      Place::step,
-     {name("ELSET"), variable, choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}), choice("DIRECTIONS", {"YES", "NO"})},
+     {name("ELSET"), variable_rule(), choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}), choice("DIRECTIONS", {"YES", "NO"})},
      read_element_output,
      "OUTPUT"}};
 

@@ -56,6 +56,10 @@ void unknown_variable(Builder& builder, const Block& block, Row& row, const std:
                         did_you_mean(variable, known), join(known)));
 }
 
+ParameterRule variable_rule() {
+  return choice("VARIABLE", {"PRESELECT", "ALL"});
+}
+
 Words asked_by_variable(const Block& block, const Words& preselected, const Words& all) {
   if (!block.has("VARIABLE")) return {};
   return block.value("VARIABLE") == "ALL" ? all : preselected;

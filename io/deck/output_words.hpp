@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "deck/builder.hpp"
+#include "deck/register.hpp"
 
 namespace balocco::deck {
 
@@ -26,6 +27,7 @@ bool is_abaqus_only(const std::string& variable);
 /// A warning for what only Abaqus writes, an error with the nearest known word for the rest.
 void unknown_variable(Builder& builder, const Block& block, Row& row, const std::string& variable, const Words& known);
 
+ParameterRule variable_rule();
 /// What the block's VARIABLE= asks for: `preselected`, `all`, or nothing without the parameter.
 Words asked_by_variable(const Block& block, const Words& preselected, const Words& all);
 

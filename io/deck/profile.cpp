@@ -12,7 +12,6 @@ namespace balocco::deck {
 namespace {
 
 using Vector2 = std::array<double, 2>;
-using Kind = ProfileSegment::Kind;
 
 Vector2 operator-(const Vector2& a, const Vector2& b) {
   return {a[0] - b[0], a[1] - b[1]};
@@ -38,7 +37,7 @@ Vector2 unit(const Vector2& a) {
 
 /// Unit direction of travel at a point of a segment.
 Vector2 tangent(const ProfileSegment& segment, const Vector2& at) {
-  if (segment.kind == Kind::line) return unit(segment.end - segment.start);
+  if (segment.kind == ProfileSegment::Kind::line) return unit(segment.end - segment.start);
   const Vector2 turned = left_of(unit(at - segment.centre));
   return segment.counter_clockwise ? turned : Vector2{-turned[0], -turned[1]};
 }
@@ -51,7 +50,7 @@ struct Offset {
 };
 
 Offset offset_of(const ProfileSegment& segment, double offset) {
-  if (segment.kind == Kind::line) {
+  if (segment.kind == ProfileSegment::Kind::line) {
     const Vector2 direction = unit(segment.end - segment.start);
     return {true, along(segment.start, left_of(direction), offset), direction, 0.0};
   }
@@ -92,7 +91,7 @@ std::vector<Vector2> intersections(const Offset& a, const Offset& b) {
 
 /// Point of the segment (or of its continuation) nearest to the centre of a tangent arc.
 Vector2 touching_point(const ProfileSegment& segment, const Vector2& centre) {
-  if (segment.kind == Kind::line) {
+  if (segment.kind == ProfileSegment::Kind::line) {
     const Vector2 direction = unit(segment.end - segment.start);
     return along(segment.start, direction, dot2(centre - segment.start, direction));
   }
@@ -109,7 +108,7 @@ double travelled(const ProfileSegment& arc, const Vector2& to) {
 }
 
 bool inside(const ProfileSegment& segment, const Vector2& point) {
-  if (segment.kind == Kind::line) {
+  if (segment.kind == ProfileSegment::Kind::line) {
     const Vector2 whole = segment.end - segment.start;
     const double s = dot2(point - segment.start, whole) / dot2(whole, whole);
     return s >= 0.0 && s <= 1.0;
@@ -127,7 +126,7 @@ std::optional<ProfileSegment> fillet(const ProfileSegment& first, const ProfileS
     if (!centre || length(candidate - first.end) < length(*centre - first.end)) centre = candidate;
   }
   if (!centre) return std::nullopt;
-  const ProfileSegment arc{Kind::arc, touching_point(first, *centre), touching_point(second, *centre), *centre, left};
+  const ProfileSegment arc{ProfileSegment::Kind::arc, touching_point(first, *centre), touching_point(second, *centre), *centre, left};
   return inside(first, arc.start) && inside(second, arc.end) ? std::optional(arc) : std::nullopt;
 }
 
@@ -136,7 +135,7 @@ ProfileSegment segment_of(Row& row, const std::string& word, const Vector2& star
   segment.start = start;
   segment.end = {row.real(1, "first coordinate of the end"), row.real(2, "second coordinate of the end")};
   if (word == "CIRCL") {
-    segment.kind = Kind::arc;
+    segment.kind = ProfileSegment::Kind::arc;
     segment.centre = {row.real(3, "first coordinate of the centre"), row.real(4, "second coordinate of the centre")};
     segment.counter_clockwise = cross2(segment.start - segment.centre, segment.end - segment.centre) > 0.0;
   }
@@ -145,7 +144,7 @@ ProfileSegment segment_of(Row& row, const std::string& word, const Vector2& star
   if (!(length(segment.end - segment.start) > 0.0)) row.error("the segment has no length; correct its end");
   const double radius = length(segment.start - segment.centre);
   // 1e-4: hand-written coordinates carry five or six digits.
-  if (segment.kind == Kind::arc && std::abs(length(segment.end - segment.centre) - radius) > 1e-4 * radius) {
+  if (segment.kind == ProfileSegment::Kind::arc && std::abs(length(segment.end - segment.centre) - radius) > 1e-4 * radius) {
     row.error(fmt::format("the arc's ends have distances {} and {} from its centre; make them equal", radius,
                           length(segment.end - segment.centre)));
   }

@@ -40,7 +40,7 @@ void read_solid_section(Builder& builder, const Block& block) {
 }
 
 /// Lines "thickness, , material, angle" of a composite membrane.
-bool read_plies(Builder& builder, const Block& block, Section& section) {
+bool read_membrane_plies(Builder& builder, const Block& block, Section& section) {
   if (block.has("MATERIAL")) {
     builder.error(block, block.location, "a composite names its materials on the data lines; remove MATERIAL");
     return false;
@@ -79,7 +79,7 @@ void read_membrane_section(Builder& builder, const Block& block) {
                                      block.value("OFFSET")));
   }
   if (block.has("COMPOSITE")) {
-    if (!read_plies(builder, block, *section)) return;
+    if (!read_membrane_plies(builder, block, *section)) return;
   } else {
     if (!need_material(builder, block)) return;
     if (block.lines.empty()) return builder.error(block, block.location, "the thickness is missing; add a data line");
@@ -162,7 +162,7 @@ const RegisterKeyword mass{{"MASS", Phase::sections, Place::model, {required(nam
 const RegisterKeyword rotary{
     {"ROTARY INERTIA", Phase::sections, Place::model, {required(name("ELSET"))}, read_rotary_inertia}};
 // SECOND ORDER ACCURACY chooses nothing here: the kinematics are exact either way.
-const RegisterKeyword controls{{"SECTION CONTROLS",
+const RegisterKeyword section_controls{{"SECTION CONTROLS",
                                 Phase::definitions,
                                 Place::model,
                                 {required(name("NAME")), choice("HOURGLASS", {"ENHANCED", "STIFFNESS"}),

@@ -53,7 +53,7 @@ void check_thickness(Row& row, double thickness) {
 }
 
 /// Lines "thickness, points, material, angle", from SNEG to SPOS.
-bool read_plies(Builder& builder, const Block& block, Section& section) {
+bool read_shell_plies(Builder& builder, const Block& block, Section& section) {
   if (block.has("MATERIAL")) {
     builder.error(block, block.location, "a composite names its materials on the data lines; remove MATERIAL");
     return false;
@@ -116,7 +116,7 @@ void read_shell_section(Builder& builder, const Block& block) {
   if (!section) return;
   section->shell.gauss = block.value("SECTION INTEGRATION") == "GAUSS";
   const bool good = block.has("COMPOSITE")
-                        ? read_plies(builder, block, *section)
+                        ? read_shell_plies(builder, block, *section)
                         : need_material(builder, block) && read_thickness(builder, block, *section, true);
   if (good) assign_section(builder, block, *std::move(section), elements);
 }
@@ -145,12 +145,12 @@ bool read_constants(Builder& builder, const Block& block, Section& section) {
   return false;
 }
 
-void read_general_section(Builder& builder, const Block& block) {
+void read_general_shell_section(Builder& builder, const Block& block) {
   std::vector<ElementRef> elements;
   auto section = begin(builder, block, elements);
   if (!section) return;
   section->shell.general = true;
-  const bool good = block.has("COMPOSITE")  ? read_plies(builder, block, *section)
+  const bool good = block.has("COMPOSITE")  ? read_shell_plies(builder, block, *section)
                     : block.has("MATERIAL") ? read_thickness(builder, block, *section, false)
                                             : read_constants(builder, block, *section);
   if (good) assign_section(builder, block, *std::move(section), elements);
@@ -205,20 +205,20 @@ void read_normals(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword section{
+const RegisterKeyword shell_section{
     {"SHELL SECTION",
      Phase::sections,
      Place::model,
      {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"), flag("COMPOSITE"),
       name("OFFSET"), flag("NODAL THICKNESS"), choice("SECTION INTEGRATION", {"SIMPSON", "GAUSS"}), real("DENSITY")},
      read_shell_section}};
-const RegisterKeyword general{{"SHELL GENERAL SECTION",
+const RegisterKeyword general_section{{"SHELL GENERAL SECTION",
                                Phase::sections,
                                Place::model,
                                {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"),
                                 flag("COMPOSITE"), name("OFFSET"), flag("NODAL THICKNESS"), real("DENSITY")},
-                               read_general_section}};
-const RegisterKeyword shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_transverse_shear}};
+                               read_general_shell_section}};
+const RegisterKeyword shell_shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_transverse_shear}};
 const RegisterKeyword thickness{{"NODAL THICKNESS", Phase::surfaces, Place::model, {}, read_nodal_thickness}};
 const RegisterKeyword normal{{"NORMAL", Phase::surfaces, Place::model, {choice("TYPE", {"ELEMENT"})}, read_normals}};
 

@@ -13,7 +13,7 @@ namespace {
 bool is_axial(const ElementType& type) { return type.name.back() == 'A'; }
 
 /// The line "degree of freedom of the first node, of the second node" of elements that act in a fixed direction.
-bool read_freedoms(Builder& builder, const Block& block, const DataLine& line, const ElementType& type, SpringProperty& spring) {
+bool read_spring_freedoms(Builder& builder, const Block& block, const DataLine& line, const ElementType& type, SpringProperty& spring) {
   Row row(builder, block, line);
   for (int end = 0; end < type.nodes; ++end) {
     const std::int64_t freedom = row.integer(end, "degree of freedom of a node");
@@ -83,7 +83,7 @@ void read(Builder& builder, const Block& block, Section::Kind kind, const char* 
   if (!is_axial(type)) {
     if (lines.empty())
       return builder.error(block, block.location, "the degrees of freedom are missing; add a data line with them");
-    if (!read_freedoms(builder, block, lines[0], type, section->spring)) return;
+    if (!read_spring_freedoms(builder, block, lines[0], type, section->spring)) return;
     lines = lines.subspan(1);
   } else if (section->orientation >= 0) {
     return builder.error(block, block.location,
@@ -103,9 +103,9 @@ void read_dashpot(Builder& builder, const Block& block) {
 }
 
 // RTOL tells Abaqus how coarsely it may resample a table; here tables are used as they are.
-const std::vector<ParameterRule> parameters{required(name("ELSET")), flag("NONLINEAR"), name("ORIENTATION"), real("RTOL")};
-const RegisterKeyword spring{{"SPRING", Phase::sections, Place::model, parameters, read_spring}};
-const RegisterKeyword dashpot{{"DASHPOT", Phase::sections, Place::model, parameters, read_dashpot}};
+const std::vector<ParameterRule> spring_parameters{required(name("ELSET")), flag("NONLINEAR"), name("ORIENTATION"), real("RTOL")};
+const RegisterKeyword spring{{"SPRING", Phase::sections, Place::model, spring_parameters, read_spring}};
+const RegisterKeyword dashpot{{"DASHPOT", Phase::sections, Place::model, spring_parameters, read_dashpot}};
 
 }  // namespace
 

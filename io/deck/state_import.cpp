@@ -106,9 +106,9 @@ void read_import(Builder& builder, const Block& block) {
   take_over(builder, block, std::move(part), import);
 }
 
-void read_elements(Builder& builder, const Block& block) { take_over(builder, block, elements_of(builder, block), state_import(builder, block)); }
+void read_imported_elements(Builder& builder, const Block& block) { take_over(builder, block, elements_of(builder, block), state_import(builder, block)); }
 
-void read_nodes(Builder& builder, const Block& block) {
+void read_imported_nodes(Builder& builder, const Block& block) {
   ImportedCopy part;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
@@ -126,8 +126,8 @@ const RegisterKeyword import_keyword({
     .handler = read_import,
 });
 
-const RegisterKeyword import_elset({.keyword = "IMPORT ELSET", .phase = Phase::surfaces, .handler = read_elements});
-const RegisterKeyword import_nset({.keyword = "IMPORT NSET", .phase = Phase::surfaces, .handler = read_nodes});
+const RegisterKeyword import_elset({.keyword = "IMPORT ELSET", .phase = Phase::surfaces, .handler = read_imported_elements});
+const RegisterKeyword import_nset({.keyword = "IMPORT NSET", .phase = Phase::surfaces, .handler = read_imported_nodes});
 
 }  // namespace
 

@@ -14,10 +14,6 @@ namespace balocco::deck {
 
 namespace {
 
-Step& current(Builder& builder) {
-  return builder.model.steps.back();
-}
-
 /// Magnitude that a load has reached at the end of a step.
 template <class Load>
 double reached(const Model& model, const Load& load, double step_time, double total_time) {
@@ -80,7 +76,7 @@ void inherit(Builder& builder, Step& step) {
 }
 
 void index_nodes(Builder& builder) {
-  const Step& step = current(builder);
+  const Step& step = current_step(builder);
   for (std::size_t row = 0; row < step.boundary.size(); ++row) {
     builder.draft.boundary_of[std::int64_t{step.boundary[row].node} * 6 + step.boundary[row].dof] = row;
   }
@@ -160,7 +156,7 @@ void end_search_for_modes(Builder& builder, Step& step) {
 
 /// About the model as it is defined, a perturbation is a linear step. About a state it would have to leave that as it is.
 void begin_static_perturbation(Builder& builder, const Block& block) {
-  const auto* procedure = std::get_if<StaticProcedure>(&current(builder).procedure);
+  const auto* procedure = std::get_if<StaticProcedure>(&current_step(builder).procedure);
   builder.static_perturbation = procedure != nullptr && !procedure->nonlinear_geometry && builder.model.steps.size() == 1;
   if (builder.static_perturbation) return;
   builder.error(block, builder.draft.location,
@@ -171,7 +167,7 @@ void end_step(Builder& builder, const Block& block) {
   if (!builder.draft.has_procedure && !builder.draft.faulty) {
     builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC, *DYNAMIC or *FREQUENCY");
   }
-  Step& step = current(builder);
+  Step& step = current_step(builder);
   if (builder.draft.has_procedure && builder.draft.amplitude == (step.ramps_loads() ? "STEP" : "RAMP")) {
     builder.diagnostics.error(
         builder.draft.location, "STEP",
@@ -239,7 +235,7 @@ void read_increments(Builder& builder, const Block& block, ImplicitIncrements& p
 
 void read_static(Builder& builder, const Block& block) {
   if (!begin_procedure(builder, block)) return;
-  auto& procedure = current(builder).procedure.emplace<StaticProcedure>();
+  auto& procedure = current_step(builder).procedure.emplace<StaticProcedure>();
   procedure.stabilize = block.has("STABILIZE");
   procedure.dissipated_energy_fraction = block.real("STABILIZE", procedure.dissipated_energy_fraction);
   read_increments(builder, block, procedure);
@@ -256,7 +252,7 @@ bool has_none(Builder& builder, const Block& block, std::initializer_list<const 
 }
 
 void read_implicit_dynamic(Builder& builder, const Block& block) {
-  auto& procedure = current(builder).procedure.emplace<DynamicProcedure>();
+  auto& procedure = current_step(builder).procedure.emplace<DynamicProcedure>();
   if (!has_none(builder, block, {"DIRECT USER CONTROL", "SCALE FACTOR", "ENERGY ERROR"}, "belongs to *DYNAMIC, EXPLICIT; remove it")) return;
   for (const auto& material : builder.model.materials)
     if (material.damping_beta > 0.0)
@@ -273,7 +269,7 @@ void read_dynamic(Builder& builder, const Block& block) {
   if (!begin_procedure(builder, block)) return;
   if (!block.has("EXPLICIT")) return read_implicit_dynamic(builder, block);
   if (!has_none(builder, block, {"ALPHA"}, "belongs to *DYNAMIC without EXPLICIT; remove it")) return;
-  Step& step = current(builder);
+  Step& step = current_step(builder);
   auto& procedure = step.procedure.emplace<ExplicitProcedure>();
   builder.draft.nonlinear_geometry = true;
   procedure.scale_factor = block.real("SCALE FACTOR", 1.0);

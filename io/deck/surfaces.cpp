@@ -131,15 +131,11 @@ void read_nodes_of_surface(Builder& builder, const Block& block, Surface& surfac
   sort_nodes(surface.nodes);
 }
 
-Point point_of(Row& row, int first, const char* what) {
-  return {row.real_or(first, 0.0, what), row.real_or(first + 1, 0.0, what), row.real_or(first + 2, 0.0, what)};
-}
-
 /// Local axes of an extruded profile: a the origin, b on the first axis, c on the generator, which is the NEGATIVE
 /// third axis.
 bool read_extruded_axes(Builder& builder, const Block& block, AnalyticalSurface& surface) {
   Row first(builder, block, block.lines[0]), second(builder, block, block.lines[1]);
-  const Point a = point_of(first, 0, "point a"), b = point_of(first, 3, "point b"), c = point_of(second, 0, "point c");
+  const Point a = first.point(0, "point a"), b = first.point(3, "point b"), c = second.point(0, "point c");
   first.at_most(6);
   second.at_most(3);
   if (!first.ok() || !second.ok()) return false;
@@ -156,7 +152,7 @@ bool read_extruded_axes(Builder& builder, const Block& block, AnalyticalSurface&
 
 bool read_revolved_axes(Builder& builder, const Block& block, AnalyticalSurface& surface) {
   Row row(builder, block, block.lines[0]);
-  const Point a = point_of(row, 0, "point a"), b = point_of(row, 3, "point b");
+  const Point a = row.point(0, "point a"), b = row.point(3, "point b");
   row.at_most(6);
   Point axis = subtract(b, a);
   const double size = norm(axis);

@@ -16,7 +16,7 @@ const Step* before(const Model& model, std::size_t row) {
   return general < 0 ? nullptr : &model.steps[general];
 }
 
-const char* type_of(BoundaryCondition::Kind kind) {
+const char* type_of_motion(BoundaryCondition::Kind kind) {
   switch (kind) {
     case BoundaryCondition::Kind::velocity:
       return ", TYPE=VELOCITY";
@@ -162,7 +162,7 @@ void Writer::boundary(std::size_t row) {
       c = end;
       continue;
     }
-    const std::string wanted = fmt::format("*BOUNDARY{}{}{}{}", renew ? ", OP=NEW" : "", type_of(c->kind),
+    const std::string wanted = fmt::format("*BOUNDARY{}{}{}{}", renew ? ", OP=NEW" : "", type_of_motion(c->kind),
                                            c->fixed ? ", FIXED" : "", amplitude_parameter(c->amplitude));
     if (wanted != header) line("{}", wanted);
     header = wanted;

@@ -149,7 +149,7 @@ class CardReader {
 };
 
 bool has_executive_control(std::string_view text) {
-  const auto lines = "\n" + upper(text);
+  const auto lines = fmt::format("\n{}", upper(text));
   return std::ranges::any_of(std::array{"\nCEND", "\nSOL ", "\nBEGIN"},
                              [&](const char* word) { return lines.find(word) != std::string::npos; });
 }

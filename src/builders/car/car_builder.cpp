@@ -12,10 +12,8 @@
 #include "builders/rim_profile.hpp"
 #include "model/diagnostics.hpp"
 
-namespace balocco {
+namespace balocco::car {
 namespace {
-
-using namespace car;
 
 /// The body in white, all of one piece, and the chassis.
 BodyMesh make_body(const CarSpec& spec, std::vector<WeldLine>& welds) {
@@ -108,7 +106,12 @@ std::string car_without_tyres(const CarSpec& spec, const BodyMesh& mesh, const C
 
 }  // namespace
 
+}  // namespace balocco::car
+
+namespace balocco {
+
 CarDeck build_car(const std::string& toml_text, const std::string& file_name, const CarFiles& files, const CarChoices& choices) {
+  using namespace car;
   const auto spec = read_car_spec(toml_text, file_name, files.text, choices);
   std::vector<WeldLine> welds;
   const auto mesh = make_body(spec, welds);

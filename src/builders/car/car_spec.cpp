@@ -41,13 +41,6 @@ std::vector<Vector> read_line(SpecTable& table, std::string_view key, std::size_
   return {{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}, {2.0, 0.0, 0.0}};
 }
 
-Vector read_place(SpecTable& table, std::string_view key) {
-  const auto rows = table.rows(key, 3, 3);
-  if (rows.size() == 1) return vector_of(rows[0]);
-  if (table.has(key)) table.fault(key, fmt::format("it has {} rows; a place is one row [[x, y, z]]", rows.size()));
-  return {};
-}
-
 void read_profile(SpecTable& top, ProfileSpec& profile) {
   auto table = top.table("profile");
   profile.wheelbase = table.number("wheelbase", Bounds::positive("mm"));

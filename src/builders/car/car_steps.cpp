@@ -15,7 +15,6 @@
 namespace balocco::car {
 namespace {
 
-constexpr double gravity = 9.81e-3;  // mm/ms2
 // ms of a static step. Dampers push there too, by the increment of motion over that of time, as in Abaqus: so slowly it is nothing.
 constexpr double period = 1e6;
 constexpr double least_fall = 20.0;  // mm from the wheels that hang lowest to the road where a fall begins: they are estimated

@@ -12,7 +12,6 @@
 namespace balocco::car {
 namespace {
 
-constexpr double gravity = 9.81e-3;                           // mm/ms2
 constexpr std::array<double, 3> size_of_seat{60.0, 60.0, 60.0};  // mm
 
 /// The left or the right side: where things are there, and how they are called.

@@ -6,6 +6,8 @@
 
 namespace balocco::car {
 
+constexpr double gravity = 9.81e-3;  // mm/ms2
+
 /// Load of one wheel of each axle, N.
 struct CornerWeights {
   double front = 0.0, rear = 0.0;

@@ -9,7 +9,6 @@
 #include "builders/spec_table.hpp"
 
 namespace balocco::car {
-namespace {
 
 Vector read_place(SpecTable& table, std::string_view key) {
   const auto rows = table.rows(key, 3, 3);
@@ -17,6 +16,8 @@ Vector read_place(SpecTable& table, std::string_view key) {
   if (table.has(key)) table.fault(key, fmt::format("it has {} rows; a place is one row [[x, y, z]]", rows.size()));
   return {};
 }
+
+namespace {
 
 RigidPart read_part(SpecTable& parent, std::string_view key) {
   auto table = parent.table(key);

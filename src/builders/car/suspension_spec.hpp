@@ -112,6 +112,8 @@ struct ChassisPlace {
   double front_track = 0.0;            // mm
 };
 
+/// One row [[x, y, z]].
+Vector read_place(SpecTable& table, std::string_view key);
 /// `choices`: the fidelity of the car, and an obstacle that overrides the description's.
 void read_chassis(SpecTable& top, const CarChoices& choices, const ChassisPlace& place, ChassisSpec& chassis);
 

@@ -74,7 +74,7 @@ void append(const Model& tyre, const Vector& centre, const std::string& suffix, 
 }
 
 std::int32_t add_surface(const std::string& name, AnalyticalSurface analytical, Model& model) {
-  model.surfaces.push_back({.kind = Surface::Kind::analytical, .name = name, .analytical = std::move(analytical)});
+  model.surfaces.push_back({.kind = balocco::Surface::Kind::analytical, .name = name, .analytical = std::move(analytical)});
   return static_cast<std::int32_t>(model.surfaces.size()) - 1;
 }
 

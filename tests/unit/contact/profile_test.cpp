@@ -12,7 +12,7 @@ namespace {
 
 using Kind = ProfileSegment::Kind;
 
-ProfileSegment line(PlanePoint start, PlanePoint end) {
+ProfileSegment segment(PlanePoint start, PlanePoint end) {
   return {Kind::line, start, end, {}, false};
 }
 ProfileSegment arc(PlanePoint start, PlanePoint end, PlanePoint centre, bool counter_clockwise) {
@@ -22,11 +22,11 @@ ProfileSegment arc(PlanePoint start, PlanePoint end, PlanePoint centre, bool cou
 /// Road running in +x (outward +y) over an obstacle 25 high with fillets of radius 5 at its foot (concave) and edges
 /// (convex).
 std::vector<ProfileSegment> road_with_obstacle() {
-  return {line({-200, 0}, {-55, 0}), arc({-55, 0}, {-50, 5}, {-55, 5}, true),
-          line({-50, 5}, {-50, 20}), arc({-50, 20}, {-45, 25}, {-45, 20}, false),
-          line({-45, 25}, {45, 25}), arc({45, 25}, {50, 20}, {45, 20}, false),
-          line({50, 20}, {50, 5}),   arc({50, 5}, {55, 0}, {55, 5}, true),
-          line({55, 0}, {200, 0})};
+  return {segment({-200, 0}, {-55, 0}), arc({-55, 0}, {-50, 5}, {-55, 5}, true),
+          segment({-50, 5}, {-50, 20}), arc({-50, 20}, {-45, 25}, {-45, 20}, false),
+          segment({-45, 25}, {45, 25}), arc({45, 25}, {50, 20}, {45, 20}, false),
+          segment({50, 20}, {50, 5}),   arc({50, 5}, {55, 0}, {55, 5}, true),
+          segment({55, 0}, {200, 0})};
 }
 
 /// Points along the chain, `count` a piece, the ends extended by straight lines.
@@ -54,7 +54,7 @@ double distance(const Profile& profile, double x, double y) {
 }
 
 TEST(Profile, DistanceToALineIsSignedAndTheLineGoesOnWithoutEnd) {
-  const Profile road(std::vector{line({0, 1}, {10, 1})});
+  const Profile road(std::vector{segment({0, 1}, {10, 1})});
   EXPECT_EQ(distance(road, 5.0, 3.0), 2.0);
   EXPECT_EQ(distance(road, 5.0, 0.25), -0.75);
   EXPECT_EQ(distance(road, -1e4, 0.25), -0.75);
@@ -65,7 +65,7 @@ TEST(Profile, DistanceToALineIsSignedAndTheLineGoesOnWithoutEnd) {
 }
 
 TEST(Profile, OutwardIsLeftOfTheRunningDirection) {
-  const Profile up(std::vector{line({0, 0}, {0, 10})}), down(std::vector{line({0, 10}, {0, 0})});
+  const Profile up(std::vector{segment({0, 0}, {0, 10})}), down(std::vector{segment({0, 10}, {0, 0})});
   EXPECT_EQ(distance(up, -2.0, 5.0), 2.0);
   EXPECT_EQ(distance(down, -2.0, 5.0), -2.0);
 }
@@ -108,7 +108,7 @@ TEST(Profile, FullCircleAndArcBeyondHalfATurn) {
 
 TEST(Profile, ClosedChainHasNoEnds) {
   const Profile square(
-      std::vector{line({0, 0}, {0, 4}), line({0, 4}, {4, 4}), line({4, 4}, {4, 0}), line({4, 0}, {0, 0})});
+      std::vector{segment({0, 0}, {0, 4}), segment({0, 4}, {4, 4}), segment({4, 4}, {4, 0}), segment({4, 0}, {0, 0})});
   EXPECT_EQ(distance(square, 2.0, 1.0), -1.0);
   EXPECT_EQ(distance(square, 2.0, 7.0), 3.0);
   EXPECT_DOUBLE_EQ(distance(square, -3.0, -4.0), 5.0);
@@ -116,7 +116,7 @@ TEST(Profile, ClosedChainHasNoEnds) {
 }
 
 TEST(Profile, SharpCornersKeepTheSignOfTheSideOnWhichThePointLies) {
-  const Profile step(std::vector{line({-9, 0}, {0, 0}), line({0, 0}, {0, 5}), line({0, 5}, {9, 5})});
+  const Profile step(std::vector{segment({-9, 0}, {0, 0}), segment({0, 0}, {0, 5}), segment({0, 5}, {9, 5})});
   EXPECT_DOUBLE_EQ(distance(step, -3.0, 9.0), 5.0);   // above and before the upper edge
   EXPECT_DOUBLE_EQ(distance(step, 3.0, -4.0), -5.0);  // in the ground behind the foot
   const auto deep = step.nearest<double>({3.0, -4.0});
@@ -202,7 +202,7 @@ TEST(Profile, DualDerivativeOfTheNormalIsTheCurvature) {
 }
 
 TEST(Profile, AtASharpCornerTheDerivativeIsThatOfTheDistanceToIt) {
-  const Profile step(std::vector{line({-9, 0}, {0, 0}), line({0, 0}, {0, 5}), line({0, 5}, {9, 5})});
+  const Profile step(std::vector{segment({-9, 0}, {0, 0}), segment({0, 0}, {0, 5}), segment({0, 5}, {9, 5})});
   const auto at = step.nearest<Dual<2>>({Dual<2>(3.0, 0), Dual<2>(-4.0, 1)});
   EXPECT_DOUBLE_EQ(at.distance.derivative[0], at.normal[0].value);
   EXPECT_DOUBLE_EQ(at.distance.derivative[1], at.normal[1].value);
@@ -213,18 +213,18 @@ TEST(Profile, WhatIsSurelyOutsideIsOutside) {
   EXPECT_TRUE(road.surely_outside({0, 25.001}));
   EXPECT_FALSE(road.surely_outside({0, 25.0}));
   EXPECT_FALSE(road.surely_outside({100, 20.0}));  // above the road, but the obstacle is higher
-  const Profile hill(std::vector{line({-9, 0}, {-3, 0}), arc({-3, 0}, {3, 0}, {0, 0}, false), line({3, 0}, {9, 0})});
+  const Profile hill(std::vector{segment({-9, 0}, {-3, 0}), arc({-3, 0}, {3, 0}, {0, 0}, false), segment({3, 0}, {9, 0})});
   EXPECT_FALSE(hill.surely_outside({0, 3.0}));
   EXPECT_TRUE(hill.surely_outside({0, 3.001}));
-  const Profile step(std::vector{line({-9, 0}, {0, 0}), line({0, 0}, {0, -5}), line({0, -5}, {9, -5})});
+  const Profile step(std::vector{segment({-9, 0}, {0, 0}), segment({0, 0}, {0, -5}), segment({0, -5}, {9, -5})});
   EXPECT_TRUE(step.surely_outside({5, 0.001}));
   const Profile roof(
-      std::vector{line({-9, -9}, {0, 0}), line({0, 0}, {9, -9})});  // ends that are not parallel: no bound
+      std::vector{segment({-9, -9}, {0, 0}), segment({0, 0}, {9, -9})});  // ends that are not parallel: no bound
   EXPECT_FALSE(roof.surely_outside({0, 100.0}));
 }
 
 TEST(Profile, TiesGoToTheLowerPiece) {
-  const Profile ditch(std::vector{line({0, 5}, {0, 0}), line({0, 0}, {4, 0}), line({4, 0}, {4, 5})});
+  const Profile ditch(std::vector{segment({0, 5}, {0, 0}), segment({0, 0}, {4, 0}), segment({4, 0}, {4, 5})});
   const auto middle = ditch.nearest<double>({2.0, 3.0});
   EXPECT_DOUBLE_EQ(middle.distance, 2.0);
   EXPECT_DOUBLE_EQ(middle.normal[0], 1.0);  // the left wall, not the right one

@@ -42,4 +42,6 @@ inline const std::string brick =
     "*MATERIAL, NAME=STEEL\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.8E-9\n"
     "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n";
 
+inline const std::string static_step = "*STEP\n*STATIC\n*END STEP\n";
+
 }  // namespace balocco::test

@@ -12,8 +12,7 @@ namespace {
 using test::brick;
 using test::errors_of;
 using test::read;
-
-const std::string step = "*STEP\n*STATIC\n*END STEP\n";
+using test::static_step;
 
 TEST(DeckText, Numbers) {
   EXPECT_EQ(deck::parse_real("1.D-3"), 1e-3);
@@ -67,7 +66,7 @@ TEST(DeckSyntax, CommentsCaseBlanksAndLineEnds) {
 }
 
 TEST(DeckSyntax, ConnectivityRunsOverLines) {
-  std::string deck = brick + step;
+  std::string deck = brick + static_step;
   const auto place = deck.find("1, 1, 2, 3, 4, 5, 6, 7, 8");
   deck.replace(place, 25, "1, 1, 2, 3,\n4, 5,\n6, 7, 8");
   EXPECT_EQ(read(deck).model.elements[0].connectivity, (std::vector<std::int32_t>{0, 1, 2, 3, 4, 5, 6, 7}));
@@ -84,13 +83,13 @@ TEST(DeckSyntax, IncludesCountFromTheIncludingFile) {
 }
 
 TEST(DeckSyntax, ParametersAreSubstituted) {
-  std::string deck = "*PARAMETER\nlength = 3.\narea = length**2 / 2  # of the bar\n" + brick + step;
+  std::string deck = "*PARAMETER\nlength = 3.\narea = length**2 / 2  # of the bar\n" + brick + static_step;
   deck.replace(deck.find("2, 1, 0, 0"), 10, "2, <area>, 0, 0");
   EXPECT_EQ(read(deck).model.nodes.coordinates[1][0], 4.5);
 }
 
 TEST(DeckSyntax, IgnoredKeywordsWarnAndLoseTheirData) {
-  const std::string deck = brick + "*ACOUSTIC MEDIUM\n2.\n" + step;
+  const std::string deck = brick + "*ACOUSTIC MEDIUM\n2.\n" + static_step;
   EXPECT_NE(errors_of(deck), "");
   const auto result = read(deck, {}, {{"acoustic medium"}});
   ASSERT_EQ(result.warnings.size(), 1u);

@@ -11,8 +11,7 @@ namespace {
 using test::brick;
 using test::errors_of;
 using test::read;
-
-const std::string step = "*STEP\n*STATIC\n*END STEP\n";
+using test::static_step;
 
 std::string warnings_of(const std::string& deck) {
   std::string all;
@@ -29,12 +28,12 @@ std::string replaced(std::string text, const std::string& what, const std::strin
 }
 
 TEST(UsersDecks, AByteOrderMarkIsSkippedAndUtf16Named) {
-  EXPECT_EQ(read("\xEF\xBB\xBF" + brick + step).model.heading, "unit brick");
+  EXPECT_EQ(read("\xEF\xBB\xBF" + brick + static_step).model.heading, "unit brick");
   EXPECT_NE(errors_of(std::string("\xFF\xFE*\0H\0", 6)).find("UTF-16"), std::string::npos);
 }
 
 TEST(UsersDecks, LinesMayEndWithReturnsAlone) {
-  std::string deck = brick + step;
+  std::string deck = brick + static_step;
   std::ranges::replace(deck, '\n', '\r');
   EXPECT_EQ(read(deck).model.nodes.size(), 8);
 }
@@ -55,7 +54,7 @@ TEST(UsersDecks, ParametersGoOnOverLines) {
   const auto model = read(brick + "*SURFACE INTERACTION,\n** of rubber\n  NAME=DRY\n*STEP, NAME=A,\nNLGEOM,\nINC=7\n*STATIC\n*END STEP\n").model;
   EXPECT_EQ(model.interactions[0].name, "DRY");
   EXPECT_EQ(std::get<StaticProcedure>(model.steps[0].procedure).maximum_increments, 7);
-  const auto errors = errors_of(replaced(brick, "ELSET=ALL, MATERIAL=STEEL", "ELSET=ALL,\nMATERAIL=STEEL") + step);
+  const auto errors = errors_of(replaced(brick, "ELSET=ALL, MATERIAL=STEEL", "ELSET=ALL,\nMATERAIL=STEEL") + static_step);
   EXPECT_NE(errors.find("parameter MATERAIL is unknown or not supported; did you mean MATERIAL?"), std::string::npos) << errors;
 }
 
@@ -65,7 +64,7 @@ TEST(UsersDecks, NamesAndChoicesMayBeAbbreviated) {
                          .model;
   EXPECT_EQ(model.amplitudes[0].kind, Amplitude::Kind::smooth_step);
   EXPECT_EQ(model.steps[0].concentrated_loads[0].amplitude, 0);
-  EXPECT_NE(errors_of(replaced(brick, "*ELASTIC", "*ELASTIC, TYPE=IS") + step), "") << "two letters say too little";
+  EXPECT_NE(errors_of(replaced(brick, "*ELASTIC", "*ELASTIC, TYPE=IS") + static_step), "") << "two letters say too little";
   EXPECT_NE(errors_of(brick + "*STEP\n*STATIC\n*OUTPUT, FIELD, TIME=1.\n*END STEP\n"), "") << "three parameters begin with TIME";
 }
 
@@ -79,19 +78,19 @@ TEST(UsersDecks, WhatTellsAnotherCodeHowToComputeIsLeftOutWithANote) {
 
 TEST(UsersDecks, WhatNeedsTemperaturesIsLeftOutWithANote) {
   const auto result = read(replaced(brick, "*DENSITY", "*EXPANSION, ZERO=20.\n1.2E-5\n*CONDUCTIVITY\n50.\n*DENSITY") +
-                           "*PHYSICAL CONSTANTS, ABSOLUTE ZERO=-273.15\n" + step);
+                           "*PHYSICAL CONSTANTS, ABSOLUTE ZERO=-273.15\n" + static_step);
   EXPECT_EQ(result.warnings.size(), 3u);
   EXPECT_EQ(result.model.materials[0].density, 7.8e-9);
 }
 
 TEST(UsersDecks, CheckpointsMayBeAskedForBeforeTheSteps) {
-  const auto steps = read(brick + "*RESTART, WRITE, FREQUENCY=5\n" + step + "*STEP, NAME=B\n*STATIC\n*RESTART, WRITE, FREQUENCY=0\n*END STEP\n").model.steps;
+  const auto steps = read(brick + "*RESTART, WRITE, FREQUENCY=5\n" + static_step + "*STEP, NAME=B\n*STATIC\n*RESTART, WRITE, FREQUENCY=0\n*END STEP\n").model.steps;
   EXPECT_EQ(steps[0].checkpoint_frequency, 5);
   EXPECT_FALSE(steps[1].checkpoint_frequency);
 }
 
 TEST(UsersDecks, FilesOfWindows) {
-  EXPECT_EQ(read("*INCLUDE, INPUT=mesh\\brick.inc\n" + step, {{"mesh/brick.inc", brick}}).model.nodes.size(), 8);
+  EXPECT_EQ(read("*INCLUDE, INPUT=mesh\\brick.inc\n" + static_step, {{"mesh/brick.inc", brick}}).model.nodes.size(), 8);
 }
 
 TEST(UsersDecks, OutputRequestsOfOtherCodes) {
@@ -132,7 +131,7 @@ TEST(UsersDecks, InstancesHaveSetsAndKnowTheirIds) {
 
 TEST(UsersDecks, NoGuessIsBetterThanAWrongOne) {
   for (const std::string keyword : {"*ELASTICITY OF ROCK", "*PLASTER", "*PERMEABILITY", "*MASS SCALING"})
-    EXPECT_EQ(errors_of(brick + keyword + "\n" + step).find("did you mean"), std::string::npos) << keyword;
+    EXPECT_EQ(errors_of(brick + keyword + "\n" + static_step).find("did you mean"), std::string::npos) << keyword;
   EXPECT_EQ(errors_of(replaced(brick, "C3D8R", "C3D10")).find("did you mean"), std::string::npos);
   EXPECT_EQ(errors_of(replaced(brick, "C3D8R", "C3D4")).find("did you mean"), std::string::npos);
   EXPECT_NE(errors_of(replaced(brick, "C3D8R", "C3DR8")).find("did you mean C3D8"), std::string::npos);
@@ -149,20 +148,20 @@ TEST(UsersDecks, AllThatIsUndefinedIsTold) {
 
 TEST(UsersDecks, LeftoversOfAMesherAreNamed) {
   const std::string line = "*ELEMENT, TYPE=T3D2, ELSET=Line1\n101, 1, 2\n102, 2, 3\n";
-  const std::string mixed = errors_of(replaced(brick, "*MATERIAL", line + "*ELSET, ELSET=ALL\nLine1\n*MATERIAL") + step);
+  const std::string mixed = errors_of(replaced(brick, "*MATERIAL", line + "*ELSET, ELSET=ALL\nLine1\n*MATERIAL") + static_step);
   EXPECT_NE(mixed.find("element 101 (job.inp:15) of type T3D2 is a line and cannot have this section, while element 1 is of type "
                        "C3D8R; take the 2 elements of type T3D2 out of set ALL"),
             std::string::npos)
       << mixed;
-  EXPECT_NE(errors_of(brick + line + step).find("delete it if a mesher left it there"), std::string::npos);
-  const std::string faces = errors_of(brick + "*ELEMENT, TYPE=CPS4, ELSET=Surface1\n201, 1, 2, 3, 4\n" + step);
+  EXPECT_NE(errors_of(brick + line + static_step).find("delete it if a mesher left it there"), std::string::npos);
+  const std::string faces = errors_of(brick + "*ELEMENT, TYPE=CPS4, ELSET=Surface1\n201, 1, 2, 3, 4\n" + static_step);
   EXPECT_NE(faces.find("CPS4 (element 201 of set SURFACE1) is unknown or not supported"), std::string::npos) << faces;
   EXPECT_NE(faces.find("plane faces that a mesher wrote"), std::string::npos) << faces;
 }
 
 TEST(UsersDecks, ALonelyNodeIsToldAndItsLoadRefused) {
   const std::string lonely = brick + "*NODE\n99, 5., 5., 5.\n";
-  EXPECT_NE(warnings_of(lonely + step).find("*NODE: node 99 belongs to no element and no rigid body"), std::string::npos);
+  EXPECT_NE(warnings_of(lonely + static_step).find("*NODE: node 99 belongs to no element and no rigid body"), std::string::npos);
   const std::string errors = errors_of(lonely + "*STEP\n*STATIC\n*CLOAD\n99, 1, 2.\n*END STEP\n");
   EXPECT_NE(errors.find("job.inp:25: error: *CLOAD: node 99 belongs to no element"), std::string::npos) << errors;
 }
@@ -170,12 +169,12 @@ TEST(UsersDecks, ALonelyNodeIsToldAndItsLoadRefused) {
 TEST(UsersDecks, AFoldedBrickIsRefusedThoughItHasAVolume) {
   for (const std::string type : {"C3D8", "C3D8R"}) {
     const auto deck = replaced(replaced(brick, "C3D8R", type), "1, 1, 2, 3, 4, 5, 6, 7, 8", "1, 1, 2, 3, 4, 5, 6, 8, 7");
-    EXPECT_NE(errors_of(deck + step).find("job.inp:13: error: *ELEMENT: element 1 is folded"), std::string::npos) << type;
+    EXPECT_NE(errors_of(deck + static_step).find("job.inp:13: error: *ELEMENT: element 1 is folded"), std::string::npos) << type;
   }
 }
 
 TEST(UsersDecks, FrictionTablesOfOneLineHold) {
-  const auto model = read(brick + "*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.2, 0.0, 0.0, 0.0\n" + step).model;
+  const auto model = read(brick + "*SURFACE INTERACTION, NAME=I\n*FRICTION\n0.2, 0.0, 0.0, 0.0\n" + static_step).model;
   EXPECT_EQ(model.interactions[0].friction, 0.2);
 }
 

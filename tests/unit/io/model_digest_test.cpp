@@ -8,7 +8,7 @@ namespace balocco {
 namespace {
 
 /// Names of the parts in which two decks differ.
-std::vector<std::string> differences(const std::string& a, const std::string& b) {
+std::vector<std::string> differing_parts(const std::string& a, const std::string& b) {
   const auto of_a = model_digests(test::read(a).model), of_b = model_digests(test::read(b).model);
   std::vector<std::string> names;
   for (std::size_t i = 0; i < of_a.size(); ++i)
@@ -24,8 +24,8 @@ std::string pressed(const std::string& faces, const std::string& top) {
 }
 
 TEST(ModelDigest, TellsOtherSlavesAndNotOtherMasters) {
-  EXPECT_EQ(differences(pressed("S1", "0."), pressed("S2", "0.")), std::vector<std::string>{"contact pairs"});
-  EXPECT_TRUE(differences(pressed("S1", "0."), pressed("S1", "-0.5")).empty()) << "the same car may drive on another road";
+  EXPECT_EQ(differing_parts(pressed("S1", "0."), pressed("S2", "0.")), std::vector<std::string>{"contact pairs"});
+  EXPECT_TRUE(differing_parts(pressed("S1", "0."), pressed("S1", "-0.5")).empty()) << "the same car may drive on another road";
 }
 
 }  // namespace

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-using namespace balocco;
+namespace balocco::test {
 
 namespace {
 
@@ -41,3 +41,5 @@ TEST(BodyLoad, DerivativeIsThatOfTheForce) {
 }
 
 }  // namespace
+
+}  // namespace balocco::test

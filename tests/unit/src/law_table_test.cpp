@@ -9,7 +9,7 @@
 #include "materials/material_option.hpp"
 #include "materials/rubber_stability.hpp"
 #include "model/diagnostics.hpp"
-#include "model/model.hpp"
+#include "steel.hpp"
 #include "symmetric_eigenvalues.hpp"
 
 namespace balocco::test {
@@ -27,15 +27,6 @@ struct Subject {
   double duration;   // of the path; quasi_static: no rates
 };
 std::ostream& operator<<(std::ostream& out, const Subject& s) { return out << s.name; }
-
-Material steel(std::vector<MaterialOption> options) {
-  return {.name = "STEEL",
-          .law = "elastic",
-          .parameters = {200.0, 0.3},
-          .options = std::move(options),
-          .location = {}};
-}
-MaterialOption table() { return {"plastic", {0.0}, {{0.4, 0.0}, {0.5, 0.02}, {0.6, 0.1}, {0.7, 0.5}}}; }
 MaterialOption chaboche() { return {"plastic-combined", {2.0}, {{0.3, 20.0, 100.0, 2.0, 5.0}}}; }
 
 Material rubber(const std::string& law, std::vector<double> parameters, std::vector<MaterialOption> options = {}) {

@@ -21,12 +21,12 @@ struct LawCase {
   std::vector<double> parameters;
 };
 
-const std::vector<LawCase> laws{
+const std::vector<LawCase> membrane_laws{
     {"elastic", {100.0, 0.3}}, {"lamina", {300.0, 10.0, 0.4, 5.0, 5.0, 5.0}}, {"neo-hooke", {15.0, 0.01}}};
 
 // The rounding of forces up to 1e6 leaves them exact to 1e6 * 2^-51.
 TEST_P(MembraneExplicit, ForcesAreThoseOfTheStaticKernel) {
-  for (const auto& [law, parameters] : laws) {
+  for (const auto& [law, parameters] : membrane_laws) {
     Sheet sheet = skewed_patch(GetParam(), 0.2);
     sheet.set_law(law, parameters);
     sheet.build(5);
@@ -158,7 +158,7 @@ TEST_P(MembraneExplicit, StableIncrementOfARectangleIsExact) {
 TEST_P(MembraneExplicit, StableIncrementIsSafeAndSharp) {
   double sum[2] = {0.0, 0.0}, least[2] = {1.0, 1.0};
   int count[2] = {0, 0};
-  for (const auto& [law, parameters] : laws)
+  for (const auto& [law, parameters] : membrane_laws)
     for (unsigned seed = 0; seed < 200; ++seed) {
       std::mt19937 random(seed);
       std::uniform_real_distribution<double> any(-1.0, 1.0);

@@ -12,11 +12,11 @@ const std::vector<std::string> membranes{"M3D4", "M3D4R", "M3D3"};
 class Membrane : public testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Types, Membrane, testing::ValuesIn(membranes), [](const auto& info) { return info.param; });
 
-Point affine(const Point& x) {  // large stretch, shear and rotation out of the plane
+Point deformed(const Point& x) {  // large stretch, shear and rotation out of the plane
   return {1.2 * x[0] + 0.3 * x[1] - 0.1 * x[2] + 4.0, 0.9 * x[1] - 0.2 * x[0] + 0.4 * x[2], 0.5 * x[0] + 0.8 * x[2] - 0.3 * x[1]};
 }
 
-Point rotated(const Point& x) {  // by 2 rad about (1, 2, 2) / 3, then shifted
+Point turned(const Point& x) {  // by 2 rad about (1, 2, 2) / 3, then shifted
   const Eigen::Matrix3d r = Eigen::AngleAxisd(2.0, Eigen::Vector3d(1, 2, 2) / 3.0).toRotationMatrix();
   const Eigen::Vector3d y = r * Eigen::Vector3d(x[0], x[1], x[2]);
   return {y[0] + 1.0, y[1] - 2.0, y[2] + 3.0};
@@ -30,7 +30,7 @@ TEST_P(Membrane, PatchIsInBalanceUnderAnyAffineMotion) {
     Sheet sheet = skewed_patch(GetParam());
     sheet.set_law(law, parameters);
     sheet.build();
-    sheet.position = sheet.positions(affine);
+    sheet.position = sheet.positions(deformed);
     std::vector<double> net(sheet.position.size(), 0.0);
     double largest = 0.0;
     for (std::int32_t e = 0; e < sheet.group->size(); ++e) {
@@ -48,7 +48,7 @@ TEST_P(Membrane, PatchIsInBalanceUnderAnyAffineMotion) {
 TEST_P(Membrane, PatchHasTheSameStressInEveryElement) {
   Sheet sheet = skewed_patch(GetParam());
   sheet.build();
-  sheet.position = sheet.positions(affine);
+  sheet.position = sheet.positions(deformed);
   std::array<double, 6> first{}, other{};
   sheet.group->output("S", 0, 0, {sheet.position.data()}, sheet.initial_history(), first);
   for (std::int32_t e = 0; e < sheet.group->size(); ++e)
@@ -62,7 +62,7 @@ TEST_P(Membrane, PatchHasTheSameStressInEveryElement) {
 TEST_P(Membrane, RotationStrainsNothing) {
   Sheet sheet = skewed_patch(GetParam(), 0.2);
   sheet.build();
-  sheet.position = sheet.positions(rotated);
+  sheet.position = sheet.positions(turned);
   for (std::int32_t e = 0; e < sheet.group->size(); ++e) {
     EXPECT_LT(sheet.force(e).cwiseAbs().maxCoeff(), 1e-12);  // 100 (modulus) * 10 (distance) * round-off
     EXPECT_LT(sheet.energies(e).strain + sheet.energies(e).hourglass, 1e-24);
@@ -92,7 +92,7 @@ TEST_P(Membrane, TangentIsTheDerivativeOfTheForce) {
     Sheet sheet = skewed_patch(GetParam(), 0.1);
     sheet.set_law(law, parameters);
     sheet.build();
-    sheet.position = sheet.positions(affine);
+    sheet.position = sheet.positions(deformed);
     sheet.disturb(0.15, 3);
     const Eigen::MatrixXd k = sheet.stiffness();
     const auto error = [&](double step) {
@@ -208,7 +208,7 @@ TEST_P(Membrane, OutputsCauchyStressAndLogarithmicStrain) {
   sheet.set_law("neo-hooke", {10.0, 2e-7});  // bulk modulus 1e7: incompressible to 1e-6
   sheet.build();
   const double stretch = 1.3, across = 1.0 / std::sqrt(stretch);
-  sheet.position = sheet.positions([&](const Point& x) { return rotated({stretch * x[0], across * x[1], 0.0}); });
+  sheet.position = sheet.positions([&](const Point& x) { return turned({stretch * x[0], across * x[1], 0.0}); });
   const auto history = sheet.initial_history();
   std::array<double, 6> s{}, le{};
   std::array<double, 1> thickness{}, mises{};

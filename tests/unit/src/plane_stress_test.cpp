@@ -5,16 +5,11 @@
 
 #include <cmath>
 
-#include "model/model.hpp"
+#include "steel.hpp"
 
 namespace balocco::test {
 
 namespace {
-
-Material steel(std::vector<MaterialOption> options) {
-  return {.name = "STEEL", .law = "elastic", .parameters = {200.0, 0.3}, .options = std::move(options), .location = {}};
-}
-MaterialOption table() { return {"plastic", {0.0}, {{0.4, 0.0}, {0.5, 0.02}, {0.6, 0.1}, {0.7, 0.5}}}; }
 
 /// Two laws along the same path of stretching, shearing and going back.
 void expect_alike(const Material& material, double size, int steps, double increment) {

@@ -14,7 +14,7 @@ namespace balocco::test {
 
 namespace {
 
-const std::vector<std::string> types{"S4", "S4R", "S3R"};
+const std::vector<std::string> shell_types{"S4", "S4R", "S3R"};
 
 /// A rigid motion: every node moves with x -> R x + t and turns by R.
 void move_rigidly(Shell& shell, const Vector3<double>& spin, const Vector3<double>& shift) {
@@ -31,7 +31,7 @@ void move_rigidly(Shell& shell, const Vector3<double>& spin, const Vector3<doubl
 }
 
 TEST(Shell, RigidMotionStrainsNothing) {
-  for (const auto& type : types) {
+  for (const auto& type : shell_types) {
     Shell shell = crooked(type);
     shell.build();
     move_rigidly(shell, {{1.3, -0.7, 2.1}}, {{3.0, -5.0, 7.0}});
@@ -42,7 +42,7 @@ TEST(Shell, RigidMotionStrainsNothing) {
 }
 
 TEST(Shell, HasExactlySixModesWithoutEnergy) {
-  for (const auto& type : types) {
+  for (const auto& type : shell_types) {
     Shell shell = crooked(type);
     shell.build();
     Eigen::MatrixXd stiffness;
@@ -55,7 +55,7 @@ TEST(Shell, HasExactlySixModesWithoutEnergy) {
 }
 
 TEST(Shell, ForceIsTheGradientOfTheEnergy) {
-  for (const auto& type : types)
+  for (const auto& type : shell_types)
     for (const bool stack : {false, true}) {
       Shell shell = crooked(type);
       shell.model.sections[0].shell.offset = 0.3;
@@ -87,7 +87,7 @@ TEST(Shell, ForceIsTheGradientOfTheEnergy) {
 }
 
 TEST(Shell, TangentIsTheDerivativeOfTheForce) {
-  for (const auto& type : types) {
+  for (const auto& type : shell_types) {
     Shell shell = crooked(type);
     shell.model.materials[0].law = "neo-hooke";
     shell.model.materials[0].parameters = {20.0, 0.01};
@@ -147,7 +147,7 @@ double patch_error(Shell& shell, const Eigen::VectorXd& field, bool hold_inner_r
 }
 
 TEST(Shell, PassesThePatchTests) {
-  for (const auto& type : types) {
+  for (const auto& type : shell_types) {
     Shell shell = patch(type);
     Eigen::VectorXd membrane = Eigen::VectorXd::Zero(shell.freedoms()), bending = membrane, shear = membrane;
     for (std::int32_t n = 0; n < shell.model.nodes.size(); ++n) {
@@ -170,7 +170,7 @@ TEST(Shell, PassesThePatchTests) {
 /// Rolled into an arc, nodes on it and directors along its radii, an element has the energy EI (turn / length)^2 / 2, not that of the
 /// chord between the directors' tips, which a turn of 0.4 shortens by 0.7 %.
 TEST(Shell, RolledElementBendsByItsTurn) {
-  for (const auto& type : types) {
+  for (const auto& type : shell_types) {
     Shell shell(type, {{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}},
                 type == "S3R" ? std::vector<std::int32_t>{0, 1, 2, 0, 2, 3} : std::vector<std::int32_t>{0, 1, 2, 3});
     shell.model.materials[0].parameters[1] = 0.0;
@@ -232,7 +232,7 @@ TEST(Shell, PackEqualsScalarBitForBit) {
 }
 
 TEST(Shell, ExplicitForcesAreThoseOfStatics) {
-  for (const auto& type : types)
+  for (const auto& type : shell_types)
     for (const std::string law : {"elastic", "neo-hooke"}) {
       Shell shell = crooked(type);
       shell.model.materials[0].law = law;
@@ -260,7 +260,7 @@ double exact_increment(const Shell& shell) {
 }
 
 TEST(Shell, StableIncrementIsExactAtRestAndSafeWhenDeformed) {
-  for (const auto& type : types)
+  for (const auto& type : shell_types)
     for (const double thickness : {0.001, 0.1, 1.0}) {
       Shell shell = crooked(type);
       shell.model.sections[0].thickness = thickness;

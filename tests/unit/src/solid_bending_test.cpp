@@ -40,7 +40,7 @@ Eigen::VectorXd solve_linear(const SolidCase& c, const std::function<bool(int, i
   return Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>>(matrix).solve(right);
 }
 
-struct Beam {
+struct BentBeam {
   std::string type = "C3D8R";
   std::array<int, 3> cells{6, 1, 1};
   Point size{6.0, 0.1, 0.2};
@@ -50,7 +50,7 @@ struct Beam {
 };
 
 /// Tip deflection of a cantilever under a unit tip load along `direction` shared by the end's nodes.
-double tip_deflection(const Beam& beam, int direction) {
+double tip_deflection(const BentBeam& beam, int direction) {
   SolidOptions o;
   o.type = beam.type;
   o.parameters = beam.parameters;
@@ -106,7 +106,7 @@ TEST(SolidBending, PureBendingOfOneElementIsExact) {
 
 /// Slender cantilever one element thick: Timoshenko's tip deflection within 2 %.
 TEST(SolidBending, CantileverOneElementThick) {
-  Beam beam;
+  BentBeam beam;
   beam.cells = {20, 1, 1};
   beam.size = {20.0, 1.0, 1.0};
   beam.parameters = {1000.0, 0.0};
@@ -132,7 +132,7 @@ TEST(SolidBending, MacNealHarderStraightBeam) {
   for (const std::string type : {"C3D8R", "C3D8"}) {
     for (const Row& row : {Row{"rectangular", 0.0, false, 0.97}, Row{"parallelogram", slope, false, 0.58},
                            Row{"trapezoidal", slope, true, 0.030}}) {
-      Beam beam;
+      BentBeam beam;
       beam.type = type;
       beam.distortion = row.distortion;
       beam.trapezoids = row.trapezoids;

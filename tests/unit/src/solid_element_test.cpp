@@ -23,7 +23,7 @@ std::ostream& operator<<(std::ostream& out, const Parameter& p) {
              << (p.pointwise_dilatation ? " pointwise" : "");
 }
 
-const std::vector<double> rubber{0.5, 0.05};  // C10, D1: bulk / shear = 40
+const std::vector<double> soft_rubber{0.5, 0.05};  // C10, D1: bulk / shear = 40
 const std::vector<double> moduli{120.0, 30.0, 100.0, 25.0, 20.0, 90.0, 30.0, 35.0, 40.0};
 
 const std::vector<double> all_moduli{120.0, 30.0, 100.0, 25.0, 20.0, 90.0, 5.0, -4.0, 3.0, 30.0, 2.0,
@@ -34,13 +34,13 @@ std::vector<Parameter> all_parameters() {
   for (const std::string type : {"C3D8R", "C3D8", "C3D6", "C3D4", "C3D10", "C3D20", "C3D20R", "C3D8I", "C3D15"}) {
     if (find_element_type(type) == nullptr) continue;
     all.push_back({type, "elastic", {1000.0, 0.3}});
-    all.push_back({type, "neo-hooke", rubber});
+    all.push_back({type, "neo-hooke", soft_rubber});
     all.push_back({type, "mooney-rivlin", {0.4, 0.1, 0.05}});
     all.push_back({type, "orthotropic", moduli});
   }
-  all.push_back({"C3D8R", "neo-hooke", rubber, HourglassControl::stiffness});
+  all.push_back({"C3D8R", "neo-hooke", soft_rubber, HourglassControl::stiffness});
   all.push_back({"C3D8", "elastic", {1000.0, 0.3}, HourglassControl::enhanced, true});
-  all.push_back({"C3D8", "neo-hooke", rubber, HourglassControl::enhanced, true});
+  all.push_back({"C3D8", "neo-hooke", soft_rubber, HourglassControl::enhanced, true});
   all.push_back({"C3D8", "anisotropic", all_moduli});
   return all;
 }
@@ -260,7 +260,7 @@ TEST(IncompatibleModes, SettleInExplicitCycles) {
   SolidOptions options;
   options.type = "C3D8I";
   options.law = "neo-hooke";
-  options.parameters = rubber;
+  options.parameters = soft_rubber;
   SolidCase c = make_block(options, {{1, 1, 1}, {1, 1, 1}, 0.1, true});
   c.move(affine(Eigen::Matrix3d::Identity() + 0.2 * (large_strain - Eigen::Matrix3d::Identity())));
   shake(c, 0.02);

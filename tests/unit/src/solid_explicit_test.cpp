@@ -12,7 +12,7 @@ namespace balocco::test {
 
 namespace {
 
-SolidOptions rubber(const std::string& type) {
+SolidOptions of_rubber(const std::string& type) {
   SolidOptions o;
   o.type = type;
   o.law = "neo-hooke";
@@ -33,7 +33,7 @@ TEST_P(ExplicitSolid, SumsAreFreeOfOrder) {
   Block block;
   block.cells = {4, 3, 3};
   block.skew = 0.2;
-  SolidCase c = make_block(rubber(GetParam()), block);
+  SolidCase c = make_block(of_rubber(GetParam()), block);
   shake(c, 0.05);
   c.explicit_cycle(0.0, 0.06, 1.2, constant);
   const int count = c.group->size(), nodes = c.group->nodes_per_element();
@@ -43,7 +43,7 @@ TEST_P(ExplicitSolid, SumsAreFreeOfOrder) {
   std::vector<std::int32_t> connectivity;
   for (const int e : order)
     for (int i = 0; i < nodes; ++i) connectivity.push_back(c.group->nodes(e)[i]);
-  SolidCase shuffled = make_case(rubber(GetParam()), c.model.nodes.coordinates, connectivity, 11);
+  SolidCase shuffled = make_case(of_rubber(GetParam()), c.model.nodes.coordinates, connectivity, 11);
   shuffled.position = c.position;
   shuffled.explicit_cycle(0.0, 0.06, 1.2, constant);
   const std::size_t bytes = sizeof(double) * 4 * c.nodes();  // without the scratch node
@@ -55,7 +55,7 @@ TEST_P(ExplicitSolid, SumsAreFreeOfOrder) {
 TEST_P(ExplicitSolid, ForcesAreTheAssembledOnes) {
   Block block;
   block.cells = {3, 2, 2};
-  SolidCase c = make_block(rubber(GetParam()), block);
+  SolidCase c = make_block(of_rubber(GetParam()), block);
   shake(c, 0.05);
   settle(c);
   c.explicit_cycle(0.0, 0.0, 0.0, rounding_constant(10.0));
@@ -69,7 +69,7 @@ TEST_P(ExplicitSolid, ForcesAreTheAssembledOnes) {
 /// velocity.
 TEST_P(ExplicitSolid, DissipationIsTheWorkOfTheViscousForces) {
   const double increment = 1e-4;
-  SolidOptions o = rubber(GetParam());
+  SolidOptions o = of_rubber(GetParam());
   for (const double beta : {0.0, 0.03}) {
     o.damping_beta = beta;
     SolidCase c = make_block(o, {{2, 2, 2}, {1, 1, 1}, 0.1});
@@ -100,7 +100,7 @@ TEST_P(ExplicitSolid, DissipationIsTheWorkOfTheViscousForces) {
 }
 
 TEST_P(ExplicitSolid, RigidRotationDissipatesNothing) {
-  SolidOptions o = rubber(GetParam());
+  SolidOptions o = of_rubber(GetParam());
   o.damping_beta = 0.03;
   SolidCase c = make_block(o, {});
   c.explicit_cycle();
@@ -116,7 +116,7 @@ TEST_P(ExplicitSolid, RigidRotationDissipatesNothing) {
 }
 
 TEST_P(ExplicitSolid, MassIsDensityTimesVolume) {
-  SolidOptions o = rubber(GetParam());
+  SolidOptions o = of_rubber(GetParam());
   o.density = 3.0;
   SolidCase c = make_block(o, {{2, 3, 1}, {2, 3, 0.5}, 0.2});
   double total = 0.0;
@@ -131,7 +131,7 @@ TEST_P(ExplicitSolid, MassIsDensityTimesVolume) {
 /// Faces: the area vector of each, nodes in the stored order, points away from the element's centre.
 TEST_P(ExplicitSolid, FacesLookOutwards) {
   const ElementType* type = find_element_type(GetParam());
-  SolidCase c = make_block(rubber(GetParam()), {});
+  SolidCase c = make_block(of_rubber(GetParam()), {});
   ASSERT_EQ(type->faces.size(), type->nodes == 8 ? 6u : type->shape == Shape::wedge ? 5u : 4u);
   Eigen::Vector3d centre = Eigen::Vector3d::Zero(), sum = Eigen::Vector3d::Zero();
   const auto at = [&](int local) {
@@ -151,7 +151,7 @@ TEST_P(ExplicitSolid, FacesLookOutwards) {
 }
 
 TEST_P(ExplicitSolid, CarriesFewBytes) {
-  SolidCase c = make_block(rubber(GetParam()), {});
+  SolidCase c = make_block(of_rubber(GetParam()), {});
   if (GetParam() == "C3D8R") {
     EXPECT_LT(c.group->bytes_per_element(), 600u);
   }
@@ -207,7 +207,7 @@ TEST(SolidOrientation, StiffnessTurnsWithIt) {
 
 /// LE of a rotated uniaxial stretch, spatial directions; MISES and PRESS of the same stress.
 TEST(SolidOutput, TensorsAndInvariants) {
-  SolidCase c = make_block(rubber("C3D8R"), {});
+  SolidCase c = make_block(of_rubber("C3D8R"), {});
   const Eigen::Matrix3d q = rotation(0.4, {0, 0, 1}), stretch = Eigen::Vector3d(1.5, 0.9, 0.8).asDiagonal();
   c.move(affine(q * stretch));
   const Eigen::Matrix3d expected =

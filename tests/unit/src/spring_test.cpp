@@ -32,7 +32,7 @@ Eigen::VectorXd force_of(const Sheet& sheet, double increment, std::vector<doubl
   return Eigen::Map<Eigen::VectorXd>(f.data(), n);
 }
 
-const std::vector<std::string> types{"SPRINGA", "SPRING1", "SPRING2", "DASHPOTA", "DASHPOT1", "DASHPOT2"};
+const std::vector<std::string> spring_types{"SPRINGA", "SPRING1", "SPRING2", "DASHPOTA", "DASHPOT1", "DASHPOT2"};
 
 SpringProperty property_of(const std::string& type, const Table& table) {
   SpringProperty property{.slope = table.empty() ? 40.0 : 0.0, .table = table};
@@ -76,7 +76,7 @@ TEST(ForceCurve, TautnessBoundsForcePerLength) {
 }
 
 TEST(Spring, ForceIsTheCurveOfTheRelativeDisplacement) {
-  for (const auto& type : types) {
+  for (const auto& type : spring_types) {
     if (type[0] != 'S') continue;
     Sheet sheet = connection(type, property_of(type, bump_and_rebound));
     EXPECT_EQ(force_of(sheet, 0.0, sheet.history).norm(), 0.0) << type;
@@ -118,7 +118,7 @@ TEST(Spring, RotationOfTheLineStrainsNothingAndDirectionsFollowOrientationAndTra
 }
 
 TEST(Spring, TangentIsTheDerivativeOfTheForce) {
-  for (const auto& type : types)
+  for (const auto& type : spring_types)
     for (const Table& table : {Table{}, bump_and_rebound}) {
       Sheet sheet = connection(type, property_of(type, table));
       sheet.disturb(0.3, 5);
@@ -142,7 +142,7 @@ TEST(Spring, TangentIsTheDerivativeOfTheForce) {
 }
 
 TEST(Spring, ExplicitAndStaticIncrementsAreOneAndTheSame) {
-  for (const auto& type : types) {
+  for (const auto& type : spring_types) {
     Sheet sheet = connection(type, property_of(type, bump_and_rebound));
     sheet.disturb(0.3, 9);
     std::vector<double> history(3, 0.0);
