@@ -92,7 +92,7 @@ TEST(CarBody, MirrorImagesLieNodeForNode) {
 }
 
 TEST(CarBody, IsOnePieceAtEveryMeshSize) {
-  for (const char* size : {"100.0", "50.0", "20.0"}) {
+  for (const char* size : {"100.0", "50.0", "14.0"}) {
     const auto report = built(changed(main_spec(), "mesh_size = 40.0", std::string("mesh_size = ") + size)).report;
     EXPECT_EQ(report.find("warning"), std::string::npos) << report;
   }
