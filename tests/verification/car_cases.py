@@ -188,6 +188,14 @@ def equilibrium(balocco, ranks, folder):
     same_bits(balocco, folder)
 
 
+def drop(balocco, ranks, folder):
+    """The decks of a fall, with a tyre that loses its air, are understood."""
+    deck, _ = build(balocco, folder, "--obstacle", "drop", text=quick(150.0) + "[pressure]\nrear_left = 0.0\nloss_time = 10.0\n")
+    for name, step in ((deck, "Step FALL: static"), (os.path.join(folder, "drive.inp"), "Step DRIVE: explicit, period 400")):
+        checked = subprocess.run([balocco, "check", name], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+        assert checked.returncode == 0 and step in checked.stdout and "warning" not in checked.stdout, checked.stdout
+
+
 def report(folder, standing):
     """The page says what the results say, needs no other file, and says what has not been run."""
     import car_report
@@ -300,4 +308,4 @@ def same_bits(balocco, folder, duration=0.5):
 
 if __name__ == "__main__":
     case, *arguments = sys.argv[1:]
-    {"beam_twist": beam_twist, "kinematics": kinematics, "body_torsion": body_torsion, "equilibrium": equilibrium}[case](*arguments)
+    {"beam_twist": beam_twist, "kinematics": kinematics, "body_torsion": body_torsion, "drop": drop, "equilibrium": equilibrium}[case](*arguments)
