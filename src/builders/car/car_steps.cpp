@@ -305,7 +305,8 @@ void write_kinematics(const CarSpec& spec, double travel, DeckText& deck) {
 namespace {
 
 /// The roads run and the wheels turn.
-void write_rolling_start(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, const CornerWeights& loads, DeckText& deck) {
+void write_rolling_start(const CarSpec& spec, const TyreSpec& tyre, const TyreFacts& facts, const CornerWeights& loads,
+                         DeckText& deck) {
   const double speed = spec.chassis.drive.speed;
   const auto centres = wheel_centres(spec);
   for (std::size_t wheel = 0; wheel < wheel_names.size(); ++wheel) {

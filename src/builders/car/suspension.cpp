@@ -168,8 +168,9 @@ double sinks(const StrutSpec& strut, double load, double spring, double stop) {
   double low = 0.0, high = load / (strut.spring_rate * spring);
   while (high - low > 1e-3) {
     const double middle = 0.5 * (low + high);
-    const bool pushes = (load - strut.spring_rate * spring * middle) * spring > stop_force(strut, stop * middle - strut.rebound_gap) * stop;
-    (pushes ? low : high) = middle;
+    const double spring_force = load - strut.spring_rate * spring * middle,
+                 force_of_stop = stop_force(strut, stop * middle - strut.rebound_gap);
+    (spring_force * spring > force_of_stop * stop ? low : high) = middle;
   }
   return low;
 }
