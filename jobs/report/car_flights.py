@@ -65,5 +65,7 @@ class Landing:
     def words(self):
         if self.wheel is None:
             return "The car falls on a flat road; the job ends before a wheel touches it."
+        if self.time == 0.0:
+            return "The road is flat; the car is on it from the start."
         return (f"The car falls on a flat road. The first wheel, {words(self.wheel)}, touches it after {self.time:.1f} ms, at "
                 f"{self.speed:.2f} m/s: that of a fall by {self.height:.0f} mm.")

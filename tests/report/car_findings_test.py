@@ -73,6 +73,9 @@ class Findings(unittest.TestCase):
         self.assertEqual(landing.wheel, "REAR_LEFT")
         self.assertAlmostEqual(landing.speed, 3.0 + 9.81e-3 * 6.0, places=6)
         self.assertAlmostEqual(landing.height, landing.speed**2 / (2.0 * 9.81e-3), places=6)
+        self.assertIn("touches it after 6.0 ms", landing.words())
+        names["contact_TREAD_FRONT_LEFT_ROAD"]["CFN"] = np.full((len(time), 3), 3000.0)
+        self.assertIn("on it from the start", car_flights.Landing(types.SimpleNamespace(reference_id=lambda name: 7), step).words())
 
     def test_peaks_in_the_hole_count_from_the_ramp_on(self):
         distance = np.linspace(-1000.0, 1000.0, 201)
