@@ -7,16 +7,18 @@ import os
 import re
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 
 import h5py
 import numpy as np
+
+from launch import on_ranks
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, os.path.join(HERE, "..", "..", "jobs", "report"))
 import car_equilibrium
 import car_modes
 SPEC = os.path.join(HERE, "..", "..", "jobs", "car", "car.toml")
-RUN = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 TORSION = """*EQUATION
 2
@@ -65,7 +67,7 @@ def body_alone(deck):
 def run(balocco, ranks, folder, name, text, *arguments):
     deck = os.path.join(folder, name + ".inp")
     open(deck, "w").write(text)
-    subprocess.run(["mpirun", "--oversubscribe", "-n", ranks, balocco, "run", deck, "--output", folder, *arguments], check=True, env=RUN)
+    subprocess.run([*on_ranks(ranks), balocco, "run", deck, "--output", folder, *arguments], check=True)
     return h5py.File(os.path.join(folder, name + ".h5"))
 
 
@@ -184,8 +186,9 @@ def equilibrium(balocco, ranks, folder):
     hops = [frequency for frequency, kind in ride if kind.startswith("hop")]
     assert len(hops) == 4 and 10.0 < min(hops) and max(hops) < 15.0, hops
     rolling(balocco, ranks, folder, loads, sum(last[name]["CFT"][-1][0] for name in loads))
-    report(folder, loads)
-    same_bits(balocco, folder)
+    with ThreadPoolExecutor() as both:  # each uses a core
+        for part in (both.submit(report, folder, loads), both.submit(same_bits, balocco, folder)):
+            part.result()
 
 
 def drop(balocco, ranks, folder):

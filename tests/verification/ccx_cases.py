@@ -15,6 +15,7 @@ import sys
 import numpy as np
 
 from ccx_table import with_plain_bricks
+from launch import on_ranks
 from static_model import Results, close
 
 HERE = os.path.dirname(os.path.abspath(__file__))
@@ -71,8 +72,7 @@ def held_dofs(path):
 
 def run(program, deck, folder, ranks):
     os.makedirs(folder, exist_ok=True)
-    done = subprocess.run(["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), program, "run", deck,
-                           "--output", folder], capture_output=True, text=True, timeout=120)
+    done = subprocess.run([*on_ranks(ranks), program, "run", deck, "--output", folder], capture_output=True, text=True, timeout=120)
     assert done.returncode == 0, "%s left with %d\n%s%s" % (deck, done.returncode, done.stdout[-2000:], done.stderr[-2000:])
     return Results(os.path.join(folder, os.path.basename(deck)[:-4] + ".h5"))
 

@@ -14,6 +14,7 @@ import sys
 
 import numpy as np
 
+from launch import on_ranks
 from static_model import Results
 
 SKIPPED = 77
@@ -54,7 +55,7 @@ def with_plain_bricks(text):
 
 def run(program, deck, folder, ranks=1):
     os.makedirs(folder, exist_ok=True)
-    command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), program, "run", deck, "--output", folder]
+    command = [*on_ranks(ranks), program, "run", deck, "--output", folder]
     return subprocess.run(command, capture_output=True, text=True, timeout=300, errors="replace")
 
 

@@ -4,8 +4,9 @@ import math
 
 import numpy as np
 
-from constraint_cases import G, GRAVITY, deck_of_rods, explicit_step, history, integrate, rods
 from explicit_cases import Job, check, check_energy, run_case
+from joint_cases import deck_of_rods, rods
+from motion_decks import G, GRAVITY, explicit_step, history, integrate
 
 
 def connector_output(elements="JOINT", interval=None):
@@ -165,13 +166,13 @@ ALONG_X
 3, 1, 6
 """
     place = lambda a: r * np.cos(a) + np.sqrt(l**2 - (r * np.sin(a))**2)
-    moves = explicit_step(1e-4, 2.0, f"*CONNECTOR MOTION, TYPE=VELOCITY\nCRANK, 4, {speed}\n", history("SLIDER", "U1", 0.01))
+    moves = lambda duration: explicit_step(1e-4, duration, f"*CONNECTOR MOTION, TYPE=VELOCITY\nCRANK, 4, {speed}\n", history("SLIDER", "U1", 0.01))
     turns = f"*STEP, NLGEOM, INC=200\n*STATIC\n0.05, 1., 1e-6, 0.05\n*CONNECTOR MOTION\nCRANK, 4, {2.5 * math.pi!r}\n*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=SLIDER\nU1\n*END STEP\n"
-    for steps, angle, tolerance in ((moves, lambda t: speed * t, 1e-6), (turns, lambda t: 2.5 * math.pi * t, 1e-8)):
-        for ranks in (1, 2):
-            job = run(deck_of_rods(lines, centres, extra + steps), ranks)
-            time, u = job.history("node_4", "U1")
-            check("place of the slider", np.abs(r + l + u - place(angle(time))).max(), 0.0, tolerance)
+    for steps, ranks, angle, tolerance in ((moves(2.0), 1, lambda t: speed * t, 1e-6), (moves(0.5), 2, lambda t: speed * t, 1e-6),
+                                           (turns, 1, lambda t: 2.5 * math.pi * t, 1e-8), (turns, 2, lambda t: 2.5 * math.pi * t, 1e-8)):
+        job = run(deck_of_rods(lines, centres, extra + steps), ranks)
+        time, u = job.history("node_4", "U1")
+        check("place of the slider", np.abs(r + l + u - place(angle(time))).max(), 0.0, tolerance)
 
 
 def on_the_ground(run):

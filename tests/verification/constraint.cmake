@@ -1,6 +1,7 @@
 # Constraints, joints and couplings against closed forms and fine integrations, in both procedures, on one rank and on more.
-verification_cases(constraint 120 masses_on_links falling_chain four_bar universal_joint coupled_tip turned_coupling equations
-                   tied_blocks welded_sheets rest_with_constraints hanging_at_rest same_bits springs_on_an_arm)
+verification_cases(joint 120 masses_on_links falling_chain four_bar universal_joint)
+verification_cases(constraint 120 coupled_tip turned_coupling equations tied_blocks
+                   welded_sheets rest_with_constraints hanging_at_rest same_bits springs_on_an_arm)
 verification_cases(connector 120 strut damped_strut struck_pendulum braked_rotor rubbing_slider slider_crank on_the_ground driven_hinge thrown_off joints_of_constraints)
 verification_cases(rigid_part 120 carousel thrown_plate carried_inertia plates_made_rigid)
 verification_cases(import 120 driving_from_an_equilibrium importing_parts importing_the_mesh importing_copies bodies_keep_their_nodes)

@@ -60,7 +60,7 @@ def rate_of_error(balocco, folder):
     for alpha, ratio, nlgeom in ((0.0, 0.0, ""), (-0.05, 0.05, ""), (-0.3, 0.05, ", NLGEOM")):
         error = []
         for count in (100, 200):
-            job = Job("oscillator", balocco, "1" if count == 100 else "2", folder)
+            job = Job("oscillator", balocco, "2" if count == 100 else "1", folder)
             job.run(oscillator([implicit(alpha, period / count, 1.3 * period)], 2.0 * ratio * OMEGA, nlgeom))
             time, u = job.history("node_2", "U")
             error.append(np.abs(u[:, 0] - ringing(time, ratio)).max() / (1e-2 / OMEGA))

@@ -4,13 +4,14 @@
 usage: explicit_cases.py CASE BALOCCO RANKS FOLDER      exit status 0: everything within tolerance
 """
 import math
-import os
 import pathlib
 import subprocess
 import sys
 
 import h5py
 import numpy as np
+
+from launch import on_ranks
 
 DECKS = pathlib.Path(__file__).parent / "decks"
 
@@ -25,9 +26,8 @@ class Job:
     def run(self, text=None, expected_status=0, arguments=()):
         deck = self.folder / f"{self.name}.inp"
         deck.write_text(text if text is not None else (DECKS / f"{self.name}.inp").read_text())
-        environment = dict(os.environ, OMPI_ALLOW_RUN_AS_ROOT="1", OMPI_ALLOW_RUN_AS_ROOT_CONFIRM="1")
-        command = ["mpirun", "--oversubscribe", "-n", self.ranks, self.balocco, "run", str(deck), "--output", str(self.folder), *arguments]
-        done = subprocess.run(command, capture_output=True, text=True, env=environment, timeout=150)
+        command = [*on_ranks(self.ranks), self.balocco, "run", str(deck), "--output", str(self.folder), *arguments]
+        done = subprocess.run(command, capture_output=True, text=True, timeout=150)
         if done.returncode != expected_status:
             sys.exit(f"exit status {done.returncode}, expected {expected_status}\n{done.stdout[-2000:]}\n{done.stderr[-2000:]}")
         return done.stdout + done.stderr

@@ -8,6 +8,7 @@ import h5py
 import numpy as np
 
 from explicit_cases import UNIT_CUBE, check, run_case
+from launch import on_ranks
 
 YOUNG, YIELD, FAILURE, DENSITY = 200e3, 400.0, 0.05, 7.8e-9
 
@@ -178,7 +179,7 @@ def ranks(run):
         shutil.rmtree(restarted, ignore_errors=True)
         deck = jobs[0].folder / f"{jobs[0].name}.inp"
         for count, extra in (("2", ["--until", "FIRST"]), ("3", ["--restart"])):
-            subprocess.run(["mpirun", "--oversubscribe", "-n", count, jobs[0].balocco, "run", str(deck), "--output", str(restarted)] + extra,
+            subprocess.run([*on_ranks(count), jobs[0].balocco, "run", str(deck), "--output", str(restarted)] + extra,
                            check=True, capture_output=True, timeout=150)
         others = [job.folder / f"{job.name}.h5" for job in jobs[1:]] + [restarted / f"{jobs[0].name}.h5"]
         for other in others:

@@ -6,8 +6,8 @@ import re
 import numpy as np
 
 from connector_cases import last
-from constraint_cases import G, explicit_step, history, integrate
 from explicit_cases import check, check_energy, run_case
+from motion_decks import G, explicit_step, history, integrate
 
 
 def heavy_top(run):

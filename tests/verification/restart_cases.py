@@ -192,7 +192,7 @@ def refusals(run):
                              "its sections and materials differ"),
     }
     for what, (text, message) in cases.items():
-        for ranks in (1, 2) if what == "of other times" else (2,):
+        for ranks in (1, 2) if what == "of other times" else (1,):
             job = run.job(text, ranks, "second", source, 2)
             check(f"a checkpoint {what} is refused on {ranks} ranks", float(job.output.count(message)), 1.0, 0.0)
     job = run.job(MODEL + PRESSED + "*RESTART, READ\n" + AGAIN, 1, "second", (), 2)

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 
-from constraint_cases import G, explicit_step, history
 from explicit_cases import Job, check, check_energy, run_case
+from motion_decks import G, explicit_step, history
 
 
 def carousel(run):

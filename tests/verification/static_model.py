@@ -6,6 +6,8 @@ import subprocess
 import h5py
 import numpy as np
 
+from launch import on_ranks
+
 
 class Deck:
     """Nodes, elements and keyword text of a deck."""
@@ -110,8 +112,7 @@ class Runner:
         os.makedirs(folder, exist_ok=True)
         path = os.path.join(folder, name + ".inp")
         deck.write(path)
-        command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks), self.program, "run", path,
-                   "--output", folder, *options]
+        command = [*on_ranks(ranks), self.program, "run", path, "--output", folder, *options]
         done = subprocess.run(command, capture_output=True, text=True, timeout=240)
         return done, os.path.join(folder, name)
 

@@ -1,5 +1,5 @@
 # The coarse tyre through all its steps, on one rank or on two: parallel_bitwise shows that both give the same bits.
-foreach(place at_rest_on_2 rolling_on_1 rolling_on_2 rolling_on_membranes_on_2 rolling_start_on_1)
+foreach(place at_rest_on_2 rolling_on_2 rolling_on_membranes_on_2 rolling_start_on_1)
   string(REGEX MATCH "^(.*)_on_([0-9])$" name ${place})
   set(case ${CMAKE_MATCH_1})
   set(ranks ${CMAKE_MATCH_2})

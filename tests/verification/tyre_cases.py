@@ -11,9 +11,10 @@ import sys
 import h5py
 import numpy as np
 
+from launch import on_ranks
+
 HERE = os.path.dirname(os.path.abspath(__file__))
 SPEC = os.path.join(HERE, "..", "parallel", "small_tyre.toml")
-RUN = {**os.environ, "OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1"}
 
 
 def run(balocco, ranks, folder, changes):
@@ -26,7 +27,7 @@ def run(balocco, ranks, folder, changes):
     spec, deck = os.path.join(folder, "tyre.toml"), os.path.join(folder, "tyre.inp")
     open(spec, "w").write(text)
     subprocess.run([balocco, "tyre", spec, "--output", deck], check=True, stdout=subprocess.DEVNULL)
-    subprocess.run(["mpirun", "--oversubscribe", "-n", ranks, balocco, "run", deck, "--output", folder], check=True, env=RUN)
+    subprocess.run([*on_ranks(ranks), balocco, "run", deck, "--output", folder], check=True)
     return h5py.File(os.path.join(folder, "tyre.h5")), open(os.path.join(folder, "tyre.log")).read()
 
 
