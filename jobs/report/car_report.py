@@ -107,7 +107,7 @@ def describe_kinematics(page, path):
 
 
 def describe_obstacle(page, drive, obstacle, columns, away):
-    page.heading("Obstacle")
+    page.heading("Fall" if obstacle.drop else "Obstacle")
     if obstacle.drop:
         return page.text(car_flights.Landing(drive, drive.steps[-1]).words())
     page.text(obstacle.words())
