@@ -95,8 +95,9 @@ def modes(results, found, standing):
 
 def road(results):
     """Profiles of both roads, mm, below each other."""
-    figure, axes = grid(len(results.surfaces), 1, height=1.5)
-    for axis, (name, surface) in zip(axes.flat, results.surfaces.items()):
+    roads = {name: surface for name, surface in results.surfaces.items() if name.startswith("ROAD_")}  # the others are rims
+    figure, axes = grid(len(roads), 1, height=1.5)
+    for axis, (name, surface) in zip(axes.flat, roads.items()):
         along, height = surface.profile.T
         bottom = min(height.min(), 0.0) - 60.0
         axis.fill_between(along, height, bottom, color="0.55")
@@ -125,7 +126,7 @@ def motion(results, step, times, roads):
     frames = [min(step.frames, key=lambda frame: abs(frame.step_time - time)) for time in times]
     figure, axes = grid((len(frames) + 1) // 2, 2, height=2.4)
     view = car_picture.VIEWS["side"]
-    surface = next(iter(results.surfaces.values()))
+    surface = results.surfaces["ROAD_LEFT_SURFACE"]
     for axis, frame in zip(axes.flat, frames):
         corners, normals = deformed(results, frame.node("U").astype(float))
         moved = frame.node("U")[roads[0]].astype(float)
