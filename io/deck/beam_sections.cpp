@@ -147,16 +147,16 @@ void read_shear_stiffness(Builder& builder, const Block& block) {
 }
 
 const RegisterKeyword beam_section{{"BEAM SECTION",
-                               Phase::sections,
-                               Place::model,
-                               {required(name("ELSET")), required(name("MATERIAL")),
-                                required(choice("SECTION", {"RECT", "CIRC", "PIPE", "BOX", "I"})), foreign("TEMPERATURE")},
-                               read_beam_section}};
+                                    Phase::sections,
+                                    Place::model,
+                                    {required(name("ELSET")), required(name("MATERIAL")),
+                                     required(choice("SECTION", {"RECT", "CIRC", "PIPE", "BOX", "I"})), foreign("TEMPERATURE")},
+                                    read_beam_section}};
 const RegisterKeyword general_beam_section{{"BEAM GENERAL SECTION",
-                               Phase::sections,
-                               Place::model,
-                               {required(name("ELSET")), choice("SECTION", {"GENERAL"}), real("DENSITY")},
-                               read_general_beam_section}};
+                                            Phase::sections,
+                                            Place::model,
+                                            {required(name("ELSET")), choice("SECTION", {"GENERAL"}), real("DENSITY")},
+                                            read_general_beam_section}};
 const RegisterKeyword beam_shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_shear_stiffness}};
 
 }  // namespace

@@ -68,11 +68,11 @@ void read_connector_friction(Builder& builder, const Block& block) {
 const RegisterKeyword derived{
     {"CONNECTOR DERIVED COMPONENT", Phase::definitions, Place::model, {required(name("NAME")), choice("OPERATOR", {"NORM"})}, read_derived, "CONNECTOR BEHAVIOR"}};
 const RegisterKeyword connector_friction{{"CONNECTOR FRICTION",
-                                Phase::definitions,
-                                Place::model,
-                                {required(integer("COMPONENT")), name("CONTACT FORCE"), flag("PREDEFINED")},
-                                read_connector_friction,
-                                "CONNECTOR BEHAVIOR"}};
+                                          Phase::definitions,
+                                          Place::model,
+                                          {required(integer("COMPONENT")), name("CONTACT FORCE"), flag("PREDEFINED")},
+                                          read_connector_friction,
+                                          "CONNECTOR BEHAVIOR"}};
 
 }  // namespace
 

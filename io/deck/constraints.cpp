@@ -157,9 +157,9 @@ void read_rigid_body(Builder& builder, const Block& block) {
 }
 
 const std::vector<ParameterRule> rigid_body_parameters{required(name("REF NODE")), name("ELSET"),
-                                            name("PIN NSET"),           name("TIE NSET"), name("NSET"), name("ROT NODE"),
-                                            name("RELEASE NSET"),       choice("POSITION", {"INPUT", "CENTER OF MASS"}),
-                                            name("ANALYTICAL SURFACE")};
+                                                       name("PIN NSET"),           name("TIE NSET"), name("NSET"), name("ROT NODE"),
+                                                       name("RELEASE NSET"),       choice("POSITION", {"INPUT", "CENTER OF MASS"}),
+                                                       name("ANALYTICAL SURFACE")};
 
 const RegisterKeyword rigid_body{{"RIGID BODY", Phase::constraints, Place::anywhere, rigid_body_parameters, read_rigid_body}};
 

@@ -255,11 +255,11 @@ const RegisterKeyword friction{{"FRICTION",
                                 read_friction,
                                 "SURFACE INTERACTION or CONNECTOR BEHAVIOR"}};
 const RegisterKeyword surface_behavior{{"SURFACE BEHAVIOR",
-                                Phase::definitions,
-                                Place::anywhere,
-                                {choice("PRESSURE-OVERCLOSURE", {"HARD"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
-                                read_surface_behavior,
-                                "SURFACE INTERACTION"}};
+                                        Phase::definitions,
+                                        Place::anywhere,
+                                        {choice("PRESSURE-OVERCLOSURE", {"HARD"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
+                                        read_surface_behavior,
+                                        "SURFACE INTERACTION"}};
 const RegisterKeyword pair{
     {"CONTACT PAIR",
      Phase::history,
@@ -269,11 +269,11 @@ const RegisterKeyword pair{
       foreign("NO THICKNESS"), foreign("WEIGHT"), foreign("SMALL SLIDING")},
      read_pair}};
 const RegisterKeyword model_change{{"MODEL CHANGE",
-                              Phase::history,
-                              Place::step,
-                              {required(choice("TYPE", {"CONTACT PAIR", "ELEMENT"})),
-                               optional_choice("ADD", {"STRAIN FREE", "WITH STRAIN"}), flag("REMOVE")},
-                              read_model_change}};
+                                    Phase::history,
+                                    Place::step,
+                                    {required(choice("TYPE", {"CONTACT PAIR", "ELEMENT"})),
+                                     optional_choice("ADD", {"STRAIN FREE", "WITH STRAIN"}), flag("REMOVE")},
+                                    read_model_change}};
 
 }  // namespace
 

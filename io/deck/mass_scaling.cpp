@@ -110,11 +110,11 @@ const RegisterKeyword fixed{
      .parameters = {real("FACTOR"), real("DT"), choice("TYPE", {"UNIFORM", "BELOW MIN", "SET EQUAL DT"}), name("ELSET")},
      .handler = read_fixed}};
 const RegisterKeyword variable_mass_scaling{{.keyword = "VARIABLE MASS SCALING",
-                                .phase = Phase::history,
-                                .place = Place::step,
-                                .parameters = {real("DT"), choice("TYPE", {"UNIFORM", "BELOW MIN", "SET EQUAL DT"}),
-                                               integer("FREQUENCY"), integer("NUMBER INTERVAL"), name("ELSET")},
-                                .handler = read_variable}};
+                                             .phase = Phase::history,
+                                             .place = Place::step,
+                                             .parameters = {real("DT"), choice("TYPE", {"UNIFORM", "BELOW MIN", "SET EQUAL DT"}),
+                                                            integer("FREQUENCY"), integer("NUMBER INTERVAL"), name("ELSET")},
+                                             .handler = read_variable}};
 
 }  // namespace
 

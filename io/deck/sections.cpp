@@ -163,11 +163,11 @@ const RegisterKeyword rotary{
     {"ROTARY INERTIA", Phase::sections, Place::model, {required(name("ELSET"))}, read_rotary_inertia}};
 // SECOND ORDER ACCURACY chooses nothing here: the kinematics are exact either way.
 const RegisterKeyword section_controls{{"SECTION CONTROLS",
-                                Phase::definitions,
-                                Place::model,
-                                {required(name("NAME")), choice("HOURGLASS", {"ENHANCED", "STIFFNESS"}),
-                                 choice("SECOND ORDER ACCURACY", {"YES", "NO"}), choice("DILATATION", {"MEAN", "POINTWISE"})},
-                                read_section_controls}};
+                                        Phase::definitions,
+                                        Place::model,
+                                        {required(name("NAME")), choice("HOURGLASS", {"ENHANCED", "STIFFNESS"}),
+                                         choice("SECOND ORDER ACCURACY", {"YES", "NO"}), choice("DILATATION", {"MEAN", "POINTWISE"})},
+                                        read_section_controls}};
 
 }  // namespace
 

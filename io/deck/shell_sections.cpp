@@ -213,11 +213,11 @@ const RegisterKeyword shell_section{
       name("OFFSET"), flag("NODAL THICKNESS"), choice("SECTION INTEGRATION", {"SIMPSON", "GAUSS"}), real("DENSITY")},
      read_shell_section}};
 const RegisterKeyword general_section{{"SHELL GENERAL SECTION",
-                               Phase::sections,
-                               Place::model,
-                               {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"),
-                                flag("COMPOSITE"), name("OFFSET"), flag("NODAL THICKNESS"), real("DENSITY")},
-                               read_general_shell_section}};
+                                       Phase::sections,
+                                       Place::model,
+                                       {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"),
+                                        flag("COMPOSITE"), name("OFFSET"), flag("NODAL THICKNESS"), real("DENSITY")},
+                                       read_general_shell_section}};
 const RegisterKeyword shell_shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_transverse_shear}};
 const RegisterKeyword thickness{{"NODAL THICKNESS", Phase::surfaces, Place::model, {}, read_nodal_thickness}};
 const RegisterKeyword normal{{"NORMAL", Phase::surfaces, Place::model, {choice("TYPE", {"ELEMENT"})}, read_normals}};
