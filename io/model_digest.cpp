@@ -23,6 +23,7 @@ std::string elements(const Model& model) {
     digest.add_all(table.id);
     digest.add_all(table.connectivity);
     digest.add_all(table.section);
+    digest.add_all(table.thickness);
   }
   return digest.text();
 }
@@ -85,6 +86,7 @@ std::uint64_t digest_of_element(const Model& model, const ElementTable& table, s
     const auto node = table.connectivity[static_cast<std::size_t>(row) * table.type->nodes + i];
     digest.add(node >= 0 ? model.nodes.id[node] - node_shift : std::int64_t{0});
   }
+  if (!table.thickness.empty()) digest.add(table.thickness[static_cast<std::size_t>(row)]);
   return digest.value();
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "deck/diagnostics.hpp"
+#include "deck/distributions.hpp"
 #include "deck/step_draft.hpp"
 #include "deck/tokens.hpp"
 #include "elements/shells/shell_normals.hpp"
@@ -56,12 +57,6 @@ struct ElementRange {
 struct ElementDirections {
   std::array<int, 3> corner{-1, -1, -1};  // OFFSET TO NODES: nodes a, b and c of the element, from 0
   std::string distribution;               // else the name of a *DISTRIBUTION
-};
-
-/// *DISTRIBUTION of directions.
-struct DirectionDistribution {
-  std::optional<std::array<Point, 3>> otherwise;  // of elements that it does not name
-  std::map<ElementRef, std::array<Point, 3>> axes;
 };
 
 /// A coordinate system for nodes: *SYSTEM or *NODE, SYSTEM=.
@@ -164,7 +159,7 @@ class Builder {
   std::map<std::int32_t, ElementDirections> element_directions;  // by row of Model::orientations
   std::map<std::string, std::vector<std::string>> distribution_tables;
   Names distributions{"distribution", {}};  // rows of:
-  std::vector<DirectionDistribution> direction_distributions;
+  std::vector<Distribution> distribution;
   std::map<std::int32_t, std::string> joint_angles;      // nodes whose freedom 6 Abaqus makes the angle of an *MPC of that type
   Guide::Friction* connector_friction = nullptr;         // the last, until a *SURFACE INTERACTION: what *FRICTION speaks of
   std::map<std::string, std::vector<std::array<double, 6>>> derived_components;  // of the last behavior: Guide::Friction::terms

@@ -1,4 +1,4 @@
-// *ORIENTATION *DISTRIBUTION TABLE *DISTRIBUTION *TRANSFORM.
+// *ORIENTATION *TRANSFORM.
 #include "deck/orientations.hpp"
 
 #include <fmt/format.h>
@@ -116,52 +116,6 @@ void read_orientation(Builder& builder, const Block& block) {
   builder.model.orientations.push_back(std::move(orientation));
 }
 
-void read_distribution_table(Builder& builder, const Block& block) {
-  auto& kinds = builder.distribution_tables[block.value("NAME")];
-  for (const auto& line : block.lines) {
-    Row row(builder, block, line);
-    for (int field = 0; field < row.size(); ++field)
-      if (row.has(field)) kinds.push_back(row.name(field));
-  }
-  if (kinds != std::vector<std::string>{"COORD3D", "COORD3D"})
-    builder.error(block, block.location,
-                  "only directions are distributed, whose table is COORD3D, COORD3D; thicknesses of shells go under *NODAL THICKNESS");
-}
-
-/// CalculiX's decks name no table.
-void read_distribution(Builder& builder, const Block& block) {
-  const auto full = builder.define(builder.distributions, block.value("NAME"),
-                                   static_cast<std::int32_t>(builder.direction_distributions.size()), block);
-  if (!full) return;
-  auto& distribution = builder.direction_distributions.emplace_back();
-  if (block.has("TABLE") && !builder.distribution_tables.contains(block.value("TABLE")))
-    return builder.error(block, block.location,
-                         fmt::format("table {} is not defined; define it under *DISTRIBUTION TABLE", block.value("TABLE")));
-  for (const auto& line : block.lines) {
-    Row row(builder, block, line);
-    const Point a = row.point(1, "point a"), b = row.point(4, "point b");
-    row.at_most(7);
-    if (!row.ok()) continue;
-    auto axes = axes_of_points({}, a, b);
-    if (!axes) {
-      row.error("points a and b define no axes; give points that do not lie on a line with the origin");
-      continue;
-    }
-    for (auto& axis : *axes) axis = builder.scope->turn(axis);
-    if (!row.has(0)) {
-      distribution.otherwise = *axes;
-      continue;
-    }
-    std::vector<ElementRef> elements;
-    if (!builder.elements_of(row.text(0), block, line.location, elements)) continue;
-    for (const auto element : elements)
-      if (!distribution.axes.emplace(element, *axes).second) {
-        row.error(fmt::format("element {} has directions already; name it once", builder.model.element_name(element)));
-        break;
-      }
-  }
-}
-
 std::optional<Axes> axes_of_corners(const Model& model, const ElementDirections& directions, ElementRef element) {
   const auto& table = model.elements[element.table];
   std::array<Point, 3> place;
@@ -200,13 +154,6 @@ const RegisterKeyword orientation{{"ORIENTATION",
                                    {required(name("NAME")), choice("SYSTEM", {"RECTANGULAR", "CYLINDRICAL"}),
                                     choice("DEFINITION", {"COORDINATES", "NODES", "OFFSET TO NODES"})},
                                    read_orientation}};
-const RegisterKeyword distribution_table{
-    {"DISTRIBUTION TABLE", Phase::definitions, Place::model, {required(name("NAME"))}, read_distribution_table}};
-const RegisterKeyword distribution{{"DISTRIBUTION",
-                                    Phase::surfaces,
-                                    Place::model,
-                                    {required(name("NAME")), choice("LOCATION", {"ELEMENT"}), name("TABLE")},
-                                    read_distribution}};
 const RegisterKeyword transform{
     {"TRANSFORM", Phase::surfaces, Place::model, {required(name("NSET")), choice("TYPE", {"R", "C"})}, read_transform}};
 
@@ -227,16 +174,20 @@ bool give_directions(Builder& builder, const Block& block, std::int32_t row, con
   if (found == builder.element_directions.end()) return true;
   Model& model = builder.model;
   const auto& directions = found->second;
-  const DirectionDistribution* distribution = nullptr;
+  const Distribution* distribution = nullptr;
   if (!directions.distribution.empty()) {
     const auto place = builder.require(builder.distributions, directions.distribution, block, block.location);
     if (!place) return false;
-    distribution = &builder.direction_distributions[*place];
+    distribution = &builder.distribution[*place];
+    if (distribution->of_lengths) {
+      builder.error(block, block.location,
+                    fmt::format("orientation {} names distribution {} of lengths; name one of directions", model.orientations[row].name,
+                                directions.distribution));
+      return false;
+    }
   }
   const auto axes_of = [&](ElementRef element) -> std::optional<Axes> {
-    if (distribution == nullptr) return axes_of_corners(model, directions, element);
-    const auto own = distribution->axes.find(element);
-    return own == distribution->axes.end() ? distribution->otherwise : std::optional(own->second);
+    return distribution == nullptr ? axes_of_corners(model, directions, element) : distribution->directions.of(element);
   };
   auto& orientation = model.orientations[row];
   for (const auto element : elements) {

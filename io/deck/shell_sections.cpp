@@ -82,14 +82,46 @@ bool read_shell_plies(Builder& builder, const Block& block, Section& section) {
   return !section.plies.empty();
 }
 
+/// SHELL THICKNESS: a *DISTRIBUTION of lengths gives each element its own; the section has their mean, to which all else of it relates.
+/// @return false, told, where an element has none
+bool read_distributed_thickness(Builder& builder, const Block& block, Section& section, const std::vector<ElementRef>& elements) {
+  const std::string name = block.value("SHELL THICKNESS");
+  const auto place = builder.require(builder.distributions, name, block, block.location);
+  if (!place) return false;
+  const auto& distribution = builder.distribution[*place];
+  const auto refuse = [&](const std::string& text) {
+    builder.error(block, block.location, text);
+    return false;
+  };
+  if (!distribution.of_lengths) return refuse(fmt::format("distribution {} has directions; name one whose table is LENGTH", name));
+  if (block.has("NODAL THICKNESS")) return refuse("NODAL THICKNESS and SHELL THICKNESS both give thicknesses; keep one of them");
+  double sum = 0.0;
+  for (const auto element : elements) {
+    const auto length = distribution.lengths.of(element);
+    if (!length)
+      return refuse(fmt::format("distribution {} gives element {} no thickness; name it there, or give a line with an empty first field for all others",
+                                name, builder.model.element_name(element)));
+    auto& table = builder.model.elements[element.table];
+    table.thickness.resize(table.id.size(), 0.0);
+    table.thickness[element.row] = *length;
+    sum += *length;
+  }
+  const double mean = sum / static_cast<double>(elements.size());
+  for (auto& ply : section.plies) ply.thickness *= mean / section.thickness;  // parts of the whole
+  section.thickness = mean;
+  return true;
+}
+
 /// "thickness, points" of a homogeneous section.
 bool read_thickness(Builder& builder, const Block& block, Section& section, bool with_points) {
+  if (block.lines.empty() && block.has("SHELL THICKNESS")) return true;
   if (block.lines.empty()) {
     builder.error(block, block.location, "the thickness is missing; add a data line");
     return false;
   }
   Row row(builder, block, block.lines[0]);
-  section.thickness = row.real(0, "thickness");
+  const bool distributed = block.has("SHELL THICKNESS");
+  section.thickness = distributed ? row.real_or(0, 1.0, "thickness") : row.real(0, "thickness");
   check_thickness(row, section.thickness);
   if (with_points) section.shell.points = points_of(row, 1, 5, section.shell.gauss);
   row.at_most(with_points ? 2 : 1);
@@ -118,7 +150,8 @@ void read_shell_section(Builder& builder, const Block& block) {
   const bool good = block.has("COMPOSITE")
                         ? read_shell_plies(builder, block, *section)
                         : need_material(builder, block) && read_thickness(builder, block, *section, true);
-  if (good) assign_section(builder, block, *std::move(section), elements);
+  if (good && (!block.has("SHELL THICKNESS") || read_distributed_thickness(builder, block, *section, elements)))
+    assign_section(builder, block, *std::move(section), elements);
 }
 
 /// The 21 constants, 8 a line, and the thickness for which they hold: what *TRANSVERSE SHEAR STIFFNESS and contact ask
@@ -210,7 +243,7 @@ const RegisterKeyword shell_section{
      Phase::sections,
      Place::model,
      {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"), flag("COMPOSITE"),
-      name("OFFSET"), flag("NODAL THICKNESS"), choice("SECTION INTEGRATION", {"SIMPSON", "GAUSS"}), real("DENSITY")},
+      name("OFFSET"), flag("NODAL THICKNESS"), name("SHELL THICKNESS"), choice("SECTION INTEGRATION", {"SIMPSON", "GAUSS"}), real("DENSITY")},
      read_shell_section}};
 const RegisterKeyword general_section{{"SHELL GENERAL SECTION",
                                        Phase::sections,

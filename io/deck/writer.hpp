@@ -13,6 +13,9 @@ namespace balocco::deck {
 /// Quotes a name that holds blanks or commas.
 std::string quoted(const std::string& name);
 
+/// Degrees that the reader turns into just these radians: a round figure if there is one.
+double degrees_of(double radians);
+
 using Conditions = std::vector<BoundaryCondition>::const_iterator;
 
 class Writer {
@@ -45,6 +48,7 @@ class Writer {
   void material_option(const MaterialOption& option);
   void sections();
   void spring(const char* keyword, const Section& section, std::size_t row, const std::string& set);
+  std::string distributed_thickness(std::size_t row);
   void shell(const Section& section, std::size_t row, const std::string& set);
   void section(std::size_t row);
   void beam_section(const Section& section, std::size_t row, const std::string& set);

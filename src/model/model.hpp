@@ -52,6 +52,7 @@ struct ElementTable {
   std::vector<std::int32_t> connectivity;
   std::vector<std::int32_t> section;
   std::vector<Location> location;
+  std::vector<double> thickness;     // shells: by *DISTRIBUTION, as id; 0: the section's; empty: all have theirs
   std::vector<Point> corner_normal;  // shells: unit normals of the smooth surface, as connectivity; empty: those of the elements
 
   std::int32_t size() const { return static_cast<std::int32_t>(id.size()); }

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Directions of single elements through the whole program: orientation_cases.py CASE BALOCCO FOLDER."""
+"""Directions and thicknesses of single elements through the whole program: orientation_cases.py CASE BALOCCO FOLDER."""
 import math
 
 import numpy as np
@@ -81,5 +81,22 @@ def directions_of_elements(run):
                 check(f"{kind}, {number}: step {step}", np.abs(u - v).max(), 0.0, 1e-6 * np.abs(u).max())
 
 
+def thickness_of_elements(run):
+    """A strip of sheets whose thickness a distribution gives does what it does where each has a section of its own."""
+    count = 5
+    steps = STEPS.replace("ROOT, 1, 3\n", "ROOT, 1, 6\n")
+    thickness = [0.1 * 1.5**i for i in range(count)]
+    for options, data in (("MATERIAL=M, OFFSET=SPOS", "{}, 5\n"), ("COMPOSITE", "{}, 3, M, 20.\n{}, 3, M, -50.\n")):
+        parts = lambda whole: data.format(*(share * whole for share in ((1.0,) if data.count("{}") == 1 else (0.25, 0.75))))
+        each = "".join(f"*ELSET, ELSET=E{i}\n{i + 1}\n*SHELL SECTION, ELSET=E{i}, {options}\n{parts(thickness[i])}" for i in range(count))
+        given = "*DISTRIBUTION TABLE, NAME=T\nLENGTH\n*DISTRIBUTION, NAME=D, LOCATION=ELEMENT, TABLE=T\n" + \
+            "".join(f"{i + 1}, {thickness[i]!r}\n" for i in range(count)) + f"*SHELL SECTION, ELSET=ALL, {options}, SHELL THICKNESS=D\n{parts(1.0)}"
+        expected = run(strip("S4R", count) + each + steps, 1)
+        found = run(strip("S4R", count) + given + steps, 2)
+        for step, words in ((1, "statics"), (2, "explicit")):
+            u, other = expected.frame("U", -1, step), found.frame("U", -1, step)
+            check(f"{options}, {words}", np.abs(u - other).max() / np.abs(u).max(), 0.0, 1e-9)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (directions_of_elements,)})
+    run_case({case.__name__: case for case in (directions_of_elements, thickness_of_elements)})

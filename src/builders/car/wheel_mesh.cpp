@@ -19,7 +19,8 @@ namespace {
 /// What the shells of one section become; nothing else can be a wheel.
 WheelGauge gauge_of(const WheelSpec& spec, const Model& model, std::int32_t section) {
   const auto& from = model.sections[section];
-  if (from.kind != Section::Kind::shell || !from.plies.empty() || from.shell.general || from.shell.nodal_thickness ||
+  const bool own_thickness = std::ranges::any_of(model.elements, [](const auto& table) { return !table.thickness.empty(); });
+  if (from.kind != Section::Kind::shell || !from.plies.empty() || from.shell.general || from.shell.nodal_thickness || own_thickness ||
       from.shell.offset != 0.0)
     fail(
         spec, "mesh",

@@ -47,7 +47,8 @@ ShellGroup<corners, points>::ShellGroup(const GroupInput& input)
   for (std::int32_t element = 0; element < padded_size_; ++element) {
     const ShellGeometry geometry = shell_geometry(input.model, {table_, rows_[element]}, section);
     std::array<double, corners> thickness;
-    thickness.fill(section_.thickness);
+    const double own = elements.thickness.empty() ? 0.0 : elements.thickness[static_cast<std::size_t>(rows_[element])];
+    thickness.fill(own > 0.0 ? own : section_.thickness);
     if (section_.nodal_thickness)
       for (int i = 0; i < corners; ++i)
         thickness[i] =

@@ -67,8 +67,8 @@ TEST(DeckOrientation, WhatGivesNoDirectionsIsRefused) {
   const auto contains = [](const std::string& errors, const std::string& part) { return errors.find(part) != std::string::npos; };
   EXPECT_TRUE(contains(errors_of(bricks + "*ORIENTATION, NAME=O\nD\n" + table + one), "gives element 1 no directions"));
   EXPECT_TRUE(contains(errors_of(bricks + "*ORIENTATION, NAME=O\nD\n" + table), "distribution D is not defined"));
-  EXPECT_TRUE(contains(errors_of(bricks + "*ORIENTATION, NAME=O\nD\n*DISTRIBUTION TABLE, NAME=T\nLENGTH\n" + one), "only directions are distributed"));
-  EXPECT_TRUE(contains(errors_of(bricks + "*ORIENTATION, NAME=O\nD\n" + table + one + "2, 1., 0., 0., 0., 1., 0.\n"), "has directions already"));
+  EXPECT_TRUE(contains(errors_of(bricks + "*ORIENTATION, NAME=O\nD\n*DISTRIBUTION TABLE, NAME=T\nANGLE\n" + one), "give one of these"));
+  EXPECT_TRUE(contains(errors_of(bricks + "*ORIENTATION, NAME=O\nD\n" + table + one + "2, 1., 0., 0., 0., 1., 0.\n"), "has its own already"));
   EXPECT_TRUE(contains(errors_of(bricks + "*ORIENTATION, NAME=O, DEFINITION=OFFSET TO NODES\n2, 9\n"), "gives element 1 no directions"));
   EXPECT_TRUE(contains(errors_of(bricks + "*ORIENTATION, NAME=O, SYSTEM=CYLINDRICAL, DEFINITION=OFFSET TO NODES\n2, 4\n"), "are rectangular"));
   EXPECT_TRUE(contains(errors_of("*NODE\n20, 0., 0., 0.\n21, 1., 0., 0.\n*ELEMENT, TYPE=CONN3D2, ELSET=C\n20, 20, 21\n"
