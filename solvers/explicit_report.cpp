@@ -67,10 +67,8 @@ bool ExplicitStep::observe() {
   if (!is_observed()) return true;
   fill_output();
   const bool regular = analysis_.current.increment % regular_increments == 0;
-  if (regular || finished()) {
-    watch_folding();
-    watch_increment();
-  }
+  watch_folding();
+  if (regular || finished()) watch_increment();
   report_failure();
   if (regular || landing || (finished() && !checked_before_landing_)) check_energy_balance();
   checked_before_landing_ = checked_before_landing_ || landing;

@@ -118,10 +118,10 @@ class ExplicitStep {
   /// The new velocities of nodes, without constraints; where nobody looks, their new positions too. @return false: the run has blown up.
   bool move_nodes(const Instant& now);
   [[noreturn]] void report_collapse();
-  /// In regular increments and at the end: the first folded element and the first that has turned inside out are told; those that are so when the step
+  /// Whenever somebody looks: the first folded element and the first that has turned inside out are told; those that are so when the step
   /// ends make it fail. In between they may recover, as a tyre's do that a blow has crushed.
   void watch_folding();
-  /// The first element that shortens the increments much is told. Collective.
+  /// In regular increments and at the end: the first element that shortens the increments much is told. Collective.
   void watch_increment();
   void tell_first(bool& told, const std::optional<FoldedCorner>& found, const std::function<std::string(std::int64_t)>& text);
   Progress progress() const;

@@ -4,4 +4,4 @@ set -euo pipefail
 
 source "$(dirname "$0")/../jobs/setup.sh"
 balocco_build -DBALOCCO_TESTS=ON
-cd "$BALOCCO_BUILD" && ctest --output-on-failure --repeat after-timeout:2 "$@"
+cd "$BALOCCO_BUILD" && ctest -j "${BALOCCO_JOBS:-2}" --output-on-failure --repeat after-timeout:2 "$@"
