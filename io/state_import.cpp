@@ -95,7 +95,9 @@ void Importer::read_rows_of_constraints() {
     values.clear();
     const auto stored = file_->exists(name) ? file_->read(name) : std::vector<double>{};
     for (const auto& constraint : constraints) {
-      const auto first = identity_->constraint(digest_of_constraint(model_, *constraint));
+      const auto nodes = constraint->nodes();  // those of copies have other numbers there
+      const bool of_copy = std::ranges::any_of(nodes, [&](std::int32_t node) { return import_.copy_of(node) != nullptr; });
+      const auto first = of_copy ? -1 : identity_->constraint(digest_of_constraint(model_, *constraint));
       for (int row = 0; row < constraint->rows(); ++row) values.push_back(first < 0 ? 0.0 : stored[static_cast<std::size_t>(first + row)]);
     }
   };
@@ -242,7 +244,8 @@ void Importer::place_bodies() {
   std::vector<Attachment> attachments;
   std::vector<std::size_t> new_bodies;
   for (std::size_t b = 0; b < state_.rigid_bodies.size(); ++b) {
-    const auto old = identity_->rigid_body(model_.nodes.id[model_.rigid_bodies[b].reference_node]);
+    const auto reference = model_.rigid_bodies[b].reference_node;
+    const auto old = import_.copy_of(reference) != nullptr ? -1 : identity_->rigid_body(model_.nodes.id[reference]);
     if (old >= 0) {
       std::ranges::move(go_on(old, b, unpack_body(&motions[static_cast<std::size_t>(old) * body_values])), std::back_inserter(attachments));
       continue;

@@ -143,8 +143,8 @@ void ExplicitStep::watch_increment() {
   if (least.value >= short_part * analysis_.undeformed_increment) return;
   told_short_ = true;
   observer_.log(fmt::format(
-      "step {}, increment {}, time {:.6g}: warning: element {} is so distorted that its stable increment is {:.3g} (undeformed model: {:.3g}): "
-      "until it recovers the run takes that much longer; use smaller elements or elements of a better shape there, or load it less",
+      "step {}, increment {}, time {:.6g}: warning: element {} is so distorted, or so stiffly held, that its stable increment is {:.3g} (undeformed model: {:.3g}): "
+      "as long as it is so the run takes that much longer; use elements of a better shape there, load it less, or soften what holds it",
       step_.name, analysis_.current.increment, analysis_.current.total_time, least.payload, least.value, analysis_.undeformed_increment));
 }
 

@@ -82,9 +82,10 @@ bool read_shell_plies(Builder& builder, const Block& block, Section& section) {
   return !section.plies.empty();
 }
 
-/// SHELL THICKNESS: a *DISTRIBUTION of lengths gives each element its own; the section has their mean, to which all else of it relates.
-/// @return false, told, where an element has none
+/// SHELL THICKNESS, where it is said: a *DISTRIBUTION of lengths gives each element its own; the section has their mean, to which all else
+/// of it relates. @return false, told, where an element has none
 bool read_distributed_thickness(Builder& builder, const Block& block, Section& section, const std::vector<ElementRef>& elements) {
+  if (!block.has("SHELL THICKNESS")) return true;
   const std::string name = block.value("SHELL THICKNESS");
   const auto place = builder.require(builder.distributions, name, block, block.location);
   if (!place) return false;
@@ -94,6 +95,7 @@ bool read_distributed_thickness(Builder& builder, const Block& block, Section& s
     return false;
   };
   if (!distribution.of_lengths) return refuse(fmt::format("distribution {} has directions; name one whose table is LENGTH", name));
+  if (!section.shell.stiffness.empty()) return refuse("stiffnesses that are given hold for one thickness; name a MATERIAL or plies, or leave SHELL THICKNESS out");
   if (block.has("NODAL THICKNESS")) return refuse("NODAL THICKNESS and SHELL THICKNESS both give thicknesses; keep one of them");
   double sum = 0.0;
   for (const auto element : elements) {
@@ -150,8 +152,7 @@ void read_shell_section(Builder& builder, const Block& block) {
   const bool good = block.has("COMPOSITE")
                         ? read_shell_plies(builder, block, *section)
                         : need_material(builder, block) && read_thickness(builder, block, *section, true);
-  if (good && (!block.has("SHELL THICKNESS") || read_distributed_thickness(builder, block, *section, elements)))
-    assign_section(builder, block, *std::move(section), elements);
+  if (good && read_distributed_thickness(builder, block, *section, elements)) assign_section(builder, block, *std::move(section), elements);
 }
 
 /// The 21 constants, 8 a line, and the thickness for which they hold: what *TRANSVERSE SHEAR STIFFNESS and contact ask
@@ -186,7 +187,7 @@ void read_general_shell_section(Builder& builder, const Block& block) {
   const bool good = block.has("COMPOSITE")  ? read_shell_plies(builder, block, *section)
                     : block.has("MATERIAL") ? read_thickness(builder, block, *section, false)
                                             : read_constants(builder, block, *section);
-  if (good) assign_section(builder, block, *std::move(section), elements);
+  if (good && read_distributed_thickness(builder, block, *section, elements)) assign_section(builder, block, *std::move(section), elements);
 }
 
 void read_transverse_shear(Builder& builder, const Block& block) {
@@ -249,7 +250,7 @@ const RegisterKeyword general_section{{"SHELL GENERAL SECTION",
                                        Phase::sections,
                                        Place::model,
                                        {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"),
-                                        flag("COMPOSITE"), name("OFFSET"), flag("NODAL THICKNESS"), real("DENSITY")},
+                                        flag("COMPOSITE"), name("OFFSET"), flag("NODAL THICKNESS"), name("SHELL THICKNESS"), real("DENSITY")},
                                        read_general_shell_section}};
 const RegisterKeyword shell_shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_transverse_shear}};
 const RegisterKeyword thickness{{"NODAL THICKNESS", Phase::surfaces, Place::model, {}, read_nodal_thickness}};

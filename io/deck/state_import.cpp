@@ -47,6 +47,9 @@ void take_over(Builder& builder, const Block& block, ImportedCopy part, StateImp
     return true;
   };
   const auto& model = builder.model;
+  if (is_copy && !model.instances.empty())
+    return builder.error(block, block.location,
+                         "ELEMENT SHIFT and SHIFT NODES speak of numbers as the deck has them, which instances have not; write that part flat");
   for (const auto& element : part.elements)
     if (refuse_twice(element, import.elements, fmt::format("element {}", model.element_name(element)))) return;
   for (const auto node : part.nodes)

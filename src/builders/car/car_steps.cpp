@@ -291,8 +291,8 @@ void write_kinematics(const CarSpec& spec, double travel, DeckText& deck) {
     double left, right;  // in parts of the travel
   };
   for (const auto& [name, left, right] : {Motion{"BUMP", 1.0, 1.0}, Motion{"REBOUND", -1.0, -1.0}, Motion{"ROLL", 0.5, -0.5}}) {
-    deck.line("**\n*STEP, NAME={}, NLGEOM=YES, INC=200\n*STATIC\n{:g}, {:g}, {:g}, {:g}\n*BOUNDARY, OP=NEW", name, 0.05 * period,
-              period, 1e-5 * period, 0.05 * period);
+    write_static_step(name, 0.05, 0.05, deck);
+    deck.line("*BOUNDARY, OP=NEW");
     hold_body(spec, deck);
     for (const std::string wheel : wheel_names)
       deck.line("HUB_{}, 3, 3, {:g}\nHUB_{}, 5, 5", wheel, travel * (wheel.ends_with("LEFT") ? left : right), wheel);
@@ -363,7 +363,7 @@ void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre
   write_road_pairs(deck);
   write_rim_pairs(tyre, deck);
   for (const auto* side : {"LEFT", "RIGHT"})
-    deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, 0.0 - drive.speed, side);
+    deck.line("*BOUNDARY, TYPE=VELOCITY\nROAD_{}, 1, 1, {:g}\n*BOUNDARY, FIXED\nROAD_{}, 2, 6", side, 0.0 - drive.speed, side);  // a fall's is 0, not -0
   write_pressure(spec, tyre.statics.pressure, deck);
   deck.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity);
   deck.line(

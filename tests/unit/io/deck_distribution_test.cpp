@@ -27,6 +27,16 @@ TEST(DeckDistribution, GivesShellsTheirThickness) {
   EXPECT_EQ(read(shells + table + lengths + "ALL, 2.\n" + plain).model.sections[0].thickness, 2.0);
 }
 
+TEST(DeckDistribution, GivesGeneralSectionsTheirThicknessUnlessTheyAreStiffnesses) {
+  const std::string given = shells + table + lengths + "1, 4.\n2, 6.\n";
+  const auto model = read(given + "*SHELL GENERAL SECTION, ELSET=ALL, MATERIAL=M, SHELL THICKNESS=D\n").model;
+  EXPECT_EQ(model.elements[0].thickness, (std::vector<double>{4.0, 6.0}));
+  EXPECT_TRUE(model.sections[0].shell.general);
+  const auto told = errors_of(given + "*SHELL GENERAL SECTION, ELSET=ALL, SHELL THICKNESS=D\n1., 0., 1., 0., 0., 1., 0., 0.\n"
+                                      "0., 1., 0., 0., 0., 0., 1., 0.\n0., 0., 0., 0., 1.\n");
+  EXPECT_NE(told.find("hold for one thickness"), std::string::npos) << told;
+}
+
 TEST(DeckDistribution, LeavesPliesTheirPartsOfTheThickness) {
   const auto model =
       read(shells + table + lengths + "1, 4.\n2, 6.\n*SHELL SECTION, ELSET=ALL, COMPOSITE, SHELL THICKNESS=D\n1., 3, M\n3., 3, M\n").model;

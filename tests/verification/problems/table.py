@@ -21,7 +21,7 @@ from verification import PROBLEMS, Refused, Session, rate, relative_error
 HEAD = """# What the problems with known answers gave
 
 Written by `bash tests/verification/results.sh` from runs of the program; the problems are in `problems/`. The seconds are those of
-all runs behind a line, two at a time on two cores, each on one rank.
+all runs behind a line, each on one rank, on a machine that did other work beside.
 Order: of convergence from one mesh to the next; none where errors are round-off or change their sign.
 A target that the finest mesh misses by more than its tolerance is marked, with the reason.
 """
