@@ -205,10 +205,10 @@ def rates_in_statics(run):
 
 def plastic_bending(run):
     """Beams of bricks bent to seven times the curvature at first yield: M = sigma b h^2 / 4 (1 - 1 / (3 * 49)). Exact for one layer, whose
-    hourglass stresses alone carry it; beside a centre that flows along they are somewhat too stiff, so that hourglass motion is held."""
+    hourglass stresses alone carry it; a tenth of what they may carry is left beside a centre that flows."""
     young, stress, first = 210000.0, 300.0, 2.0 * 300.0 / 210000.0  # curvature at first yield, h = 1
     exact = 0.25 * stress * (1.0 - 1.0 / 147.0)
-    for layers, tolerance in ((1, 0.02), (2, 0.2), (3, 0.05), (4, 0.08)):
+    for layers, tolerance in ((1, 0.02), (2, 0.07), (3, 0.04), (4, 0.04)):
         for procedure, amplitude in (("*STATIC\n0.025, 1., 1e-6, 0.025", ""), ("*DYNAMIC, EXPLICIT\n, 1e-4", ", AMPLITUDE=RISE")):
             deck = brick((1, layers, 1), (1.0, 1.0, 1.0), "C3D8R", lambda x, y, z: (x, y - 0.5, z - 0.5))
             ends = {side: deck.where(lambda x, y, z: x == side) for side in (0.0, 1.0)}
@@ -223,6 +223,24 @@ def plastic_bending(run):
                 force = dict(zip(deck.nodes, run(file.read(), 1).frame("RF", -1)))
             moment = -sum(force[n][0] * deck.nodes[n][1] for n in ends[1.0])
             check(f"moment of {layers} layers, {'explicit' if amplitude else 'static'}", moment, exact, tolerance)
+
+
+def plastic_cantilever(run):
+    """A short thick beam loaded beyond its plastic moment, by a force: statics must find the way through the yield of whole layers. The
+    deflection of 24 x 8 x 8 plain bricks (C3D8) is 0.531."""
+    for counts, all_ranks, tolerance in (((6, 2, 2), (1, 2), 0.4), ((12, 4, 4), (1,), 0.05)):
+        deck = brick(counts, (1.5, 1.0, 1.0), "C3D8R")
+        deck.sets["ROOT"] = deck.where(lambda x, y, z: x == 0.0)
+        tip = deck.where(lambda x, y, z: x == 1.5)
+        share = lambda n: 3e3 / (counts[1] * counts[2]) / 2 ** sum(deck.nodes[n][k] in (0.0, 1.0) for k in (1, 2))
+        deck.add("*MATERIAL, NAME=M\n*ELASTIC\n1e6, 0.25\n*PLASTIC\n1e4, 0.\n3e4, 1.\n*SOLID SECTION, ELSET=ALL, MATERIAL=M\n*STEP, NLGEOM, INC=100\n"
+                 "*STATIC\n0.05, 1.\n*BOUNDARY\nROOT, 1, 3\n*CLOAD\n" + "".join(f"{n}, 3, {share(n)!r}\n" for n in tip) + FIELD + "*END STEP\n")
+        with tempfile.NamedTemporaryFile("r", suffix=".inp") as file:
+            deck.write(file.name)
+            text = file.read()
+        for ranks in all_ranks:
+            moved = dict(zip(deck.nodes, run(text, ranks).frame("U", -1)))
+            check(f"deflection of {counts}", max(moved[n][2] for n in tip), 0.531, tolerance)
 
 
 if __name__ == "__main__":

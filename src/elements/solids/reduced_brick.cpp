@@ -120,7 +120,6 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
     else
       return reference;
   }();
-  const Pack plastic_strain = hourglass == Hourglass::flowing ? component(flow_.plastic_strain) : Pack(0.0);
   material_.law->stress(points);
   Matrix3<Pack> stress;
   for (int k = 0; k < 9; ++k) stress.component[k] = load(points.stress[k]);
@@ -135,9 +134,9 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
   std::array<Vector3<Pack>, 4> q = hourglass_vectors(c, f, shape);
   if constexpr (hourglass == Hourglass::flowing) {
     const HourglassTrial<Pack> trial(c, q, shape);
-    const Pack new_strain = component(flow_.plastic_strain);
-    const Pack factor = flow_factor(CentreStress<Pack>(stress, f), Pack(new_strain - plastic_strain), new_strain, c, trial.stress,
-                                    trial.energy, volume, flow_);
+    const Pack hardened = component(own_history + HourglassFlow::hardening);
+    const auto [factor, hardening] = hourglass_return(CentreStress<Pack>(stress, f), Pack(component(flow_.plastic_strain) + hardened), c,
+                                                      trial.stress, trial.energy, volume, flow_);
     const auto change = shape_change(factor, q, invariant);
     q = flowed(factor, q);
     const auto put = [&](int k, const Pack& value) {
@@ -145,10 +144,11 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
     };
     for (int k = 0; k < 12; ++k) put(k, component(own_history + k) + change[k]);
     const Pack kept = factor * factor * trial.energy;
-    Pack lost = flow_dissipation(factor, trial.energy, component(own_history + 13));
+    Pack lost = flow_dissipation(factor, trial.energy, component(own_history + HourglassFlow::elastic));
     if (flow_.failure >= 0) lost += select(component(flow_.failure) > 0.0, kept, Pack(0.0));  // what fails gives up its elastic energy
-    put(12, component(own_history + 12) + lost);
-    put(13, kept);
+    put(HourglassFlow::dissipated, component(own_history + HourglassFlow::dissipated) + lost);
+    put(HourglassFlow::elastic, kept);
+    put(HourglassFlow::hardening, hardened + hardening);
   }
   const Pack time_scale(this->time_scale(element), std::experimental::element_aligned);
   const Pack rate = time_scale * volume_rate(invariant.jacobian, old_jacobian, inverse_increment);

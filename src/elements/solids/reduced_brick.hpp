@@ -66,7 +66,7 @@ class ReducedBrick final : public ElementGroup {
   T artificial_energy(const HexahedronCoefficients<T>& c, const Matrix3<T>& f, const Reference& reference, const auto& history) const {
     if (!flow_.active()) return hourglass_energy(c, hourglass_vectors(c, f, reference), reference, enhanced_);
     const FlowedReference<T, Reference> shape(reference, flow_, own_history, history);
-    const T elastic = hourglass_energy(hourglass_strains(c, hourglass_vectors(c, f, shape)), shape), given_up = history(own_history + 12);
+    const T elastic = hourglass_energy(hourglass_strains(c, hourglass_vectors(c, f, shape)), shape), given_up = history(own_history + HourglassFlow::dissipated);
     return given_up + (flow_.failure < 0 ? elastic : select(history(flow_.failure) > 0.0, T(0.0), elastic));
   }
 
@@ -79,14 +79,15 @@ class ReducedBrick final : public ElementGroup {
   void advance_shape(const HexahedronCoefficients<double>& c, const Matrix3<double>& f, const Matrix3<double>& stress,
                      double plastic, const LaneReference& reference, std::span<const double> old_history,
                      std::span<double> history) const;
-  /// flow_factor() of hourglass vectors before their flow.
+  /// hourglass_return() of hourglass vectors before their flow.
   template <class T>
-  T factor_of(const HexahedronCoefficients<T>& c, const std::array<Vector3<T>, 4>& trial, const Matrix3<T>& f,
-              const Matrix3<T>& stress, const T& plastic, const FlowedReference<double, LaneReference>& shape,
-              std::span<const double> old_history) const {
+  HourglassReturn<T> return_of(const HexahedronCoefficients<T>& c, const std::array<Vector3<T>, 4>& trial, const Matrix3<T>& f,
+                               const Matrix3<T>& stress, const T& plastic, const FlowedReference<double, LaneReference>& shape,
+                               std::span<const double> old_history) const {
     const HourglassTrial<T> of_trial(c, trial, shape);
-    return flow_factor(CentreStress<T>(stress, f), plastic, T(old_history[flow_.plastic_strain] + plastic), c, of_trial.stress,
-                       of_trial.energy, T(shape[brick_record::volume]), flow_);
+    const T plastic_strain = old_history[flow_.plastic_strain] + old_history[own_history + HourglassFlow::hardening] + plastic;
+    return hourglass_return(CentreStress<T>(stress, f), plastic_strain, c, of_trial.stress, of_trial.energy,
+                            T(shape[brick_record::volume]), flow_);
   }
   FlowedReference<double, LaneReference> flowed_reference(const LaneReference& reference, std::span<const double> history) const {
     return {reference, flow_, own_history, [&](int k) { return history[k]; }};

@@ -2,11 +2,12 @@
 // change its shape freely. Only HOURGLASS=ENHANCED groups whose material has *PLASTIC pay for it.
 //
 // The stress-free shape of an element changes: hourglass vectors become q_a = c_(3+a) - F (C_(3+a) + Q_a) with Q_a, referred to the
-// material, part of the history: q_a = r q_a(trial), Q_a += (1 - r) F^-1 q_a(trial). Hourglass stresses are returned to the yield
-// surface at eight points, xi, eta, zeta = +- 2/3, where a layer under a linear stress gives the plastic moment of its thickness, 3/2
-// of that at first yield: so they yield in bending, in which the centre is at rest, at the point that yields first. Where the centre flows, the return of both
-// together lets them fade across the direction of its flow as the deviators of all points do, by s = mises / trial mises of the
-// centre, and along it vanish. That would leave what flows wholly no resistance to hourglass motion: there r is at least 1 - 2 (1 - s).
+// material, part of the history: q_a = r q_a(trial), Q_a += (1 - r) F^-1 q_a(trial). Hourglass stresses are measured at eight points,
+// xi, eta, zeta = +- 2/3, where a layer under a linear stress gives the plastic moment of its thickness, 3/2 of that at first yield: so
+// they yield in bending, in which the centre is at rest. What flows there is a plastic strain of their own, (1 - r) mises / E, by which
+// that yield hardens: at 2/3 it is that of which linear hardening makes the moment H kappa h^3 / 12. What the centre carries is taken
+// from it, as a normal force takes from the moment of a plate, 1 - n^2; a tenth is left where the centre flows, or nothing would resist
+// hourglass motion there. The return is a projection: repeated, it changes nothing, so forces do not depend on how fine increments are.
 // Affine flow, however large, strains no hourglass mode so, and its moduli are those of the shape that flow alone has given to the
 // element, Fp (C_1, C_2, C_3).
 #pragma once
@@ -23,7 +24,10 @@ namespace balocco {
 
 /// What a group needs to know of its metal. Rows are those of an element's history.
 struct HourglassFlow {
-  static constexpr int history_size = 14;  // Q_1 .. Q_4, the energy dissipated per element, and the elastic one
+  /// Rows: Q_1 .. Q_4, the energy dissipated per element, the elastic one, and the plastic strain of the hourglass.
+  static constexpr int dissipated = 12, elastic = 13, hardening = 14, history_size = 15;
+  /// Share of the hourglass's yield stress that a centre which flows takes.
+  static constexpr double taken = 0.9;
   int plastic_strain = -1;                 // PEEQ; -1: nothing yields
   int plastic_deformation = -1;            // Fp^-1 - 1
   int failure = -1;                        // FAILED; -1: nothing fails
@@ -50,65 +54,59 @@ struct CentreStress {
   static SymmetricTensor<T> deviator_of(const SymmetricTensor<T>& a) { return a.plus_identity((-1.0 / 3.0) * trace(a)); }
 };
 
-/// Deviators of the hourglass stresses at the eight points: z, y, x times the linear ones of the classes zeta, eta, xi, and y z, x z, x y
-/// times those of mode xi eta zeta, where x, y, z = +- 1 stand for +- 2/3.
+/// Root mean square, over the eight points, of mises' measure of the hourglass stresses. Deviators there are the linear ones of the
+/// classes zeta, eta, xi and the bilinear ones of mode xi eta zeta, each with a pattern of signs orthogonal to all others.
 template <class T>
-struct HourglassField {
-  std::array<SymmetricTensor<T>, 6> part;
+T hourglass_mises(const HexahedronCoefficients<T>& c, const std::array<T, 12>& stress, const T& volume) {
+  constexpr double place = 2.0 / 3.0;
+  const auto dyad = [&](int a, int b) {
+    const auto component = [&](int i, int j) { return 0.5 * (c[a][i] * c[b][j] + c[b][i] * c[a][j]); };
+    return CentreStress<T>::deviator_of(
+        {{component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(0, 2), component(1, 2)}});
+  };
+  const std::array<SymmetricTensor<T>, 3> along{dyad(0, 0), dyad(1, 1), dyad(2, 2)};
+  const T linear = (3.0 * place) / volume, bilinear = (9.0 * place * place) / volume;
+  constexpr int axes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
+  T square = T(std::numeric_limits<double>::min());
+  for (int k = 0; k < 3; ++k) {
+    const auto [a, b] = axes[k];
+    const auto of_class = (linear * stress[3 * k]) * along[a] + (linear * stress[3 * k + 1]) * along[b] +
+                          (2.0 * (linear * stress[3 * k + 2])) * dyad(a, b);
+    const auto of_mode = (bilinear * stress[9 + k]) * along[k];
+    square = square + double_contraction(of_class, of_class) + double_contraction(of_mode, of_mode);
+  }
+  return square_root(1.5 * square);
+}
 
-  HourglassField(const HexahedronCoefficients<T>& c, const std::array<T, 12>& stress, const T& volume) {
-    constexpr double place = 2.0 / 3.0;
-    const auto dyad = [&](int a, int b) {
-      const auto component = [&](int i, int j) { return 0.5 * (c[a][i] * c[b][j] + c[b][i] * c[a][j]); };
-      return CentreStress<T>::deviator_of(
-          {{component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(0, 2), component(1, 2)}});
-    };
-    const std::array<SymmetricTensor<T>, 3> along{dyad(0, 0), dyad(1, 1), dyad(2, 2)};
-    const T linear = (3.0 * place) / volume, bilinear = (9.0 * place * place) / volume;
-    constexpr int axes[3][2] = {{0, 1}, {0, 2}, {1, 2}};
-    for (int k = 0; k < 3; ++k) {
-      const auto [a, b] = axes[k];
-      part[k] = (linear * stress[3 * k]) * along[a] + (linear * stress[3 * k + 1]) * along[b] +
-                (2.0 * (linear * stress[3 * k + 2])) * dyad(a, b);
-      part[3 + k] = (bilinear * stress[9 + k]) * along[k];
-    }
-  }
-  SymmetricTensor<T> at(double x, double y, double z) const {
-    const std::array<double, 6> sign{z, y, x, y * z, x * z, x * y};
-    SymmetricTensor<T> sum = T(sign[0]) * part[0];
-    for (int k = 1; k < 6; ++k) sum = sum + T(sign[k]) * part[k];
-    return sum;
-  }
+/// What one increment makes of the trial hourglass stresses.
+template <class T>
+struct HourglassReturn {
+  T factor = T(1.0);          // r, what is left of them, 0 <= r <= 1
+  T plastic_strain = T(0.0);  // by how much that of the hourglass grows
 };
 
-/// What is left of the trial hourglass stresses, 0 <= r <= 1, after the plastic strain of the centre has grown by `dp` to
-/// `plastic_strain`. `energy`: of the trial stresses.
+/// What of a trial hourglass stress (mises) the hourglass carries: its yield stress, that of the curve at `plastic_strain` (of the centre
+/// and of the hourglass before the increment) or the centre's own; less what the centre takes of it; and what it hardens by.
 template <class T>
-T flow_factor(const CentreStress<T>& centre, const T& dp, const T& plastic_strain, const HexahedronCoefficients<T>& c,
-              const std::array<T, 12>& stress, const T& energy, const T& volume, const HourglassFlow& flow) {
-  const T trial = centre.mises + (3.0 * flow.shear) * dp;
+T hourglass_limit(const CentreStress<T>& centre, const T& plastic_strain, const T& trial, const HourglassFlow& flow) {
+  const auto curve = flow.yield.static_curve(value_of(plastic_strain));
+  const T yield = maximum(centre.mises, T(curve.value) + T(curve.slope) * (plastic_strain - T(value_of(plastic_strain))));
+  const T share = centre.mises / yield, left = 1.0 - HourglassFlow::taken * (share * share);
+  const T before = left * yield, slope = left * T(curve.slope);
+  return before + slope / (flow.young + slope) * maximum(trial - before, T(0.0));
+}
+
+/// The return of the trial hourglass stresses to what they may be beside the stress of the centre. `plastic_strain`: of centre and
+/// hourglass. `energy`: of the trial stresses.
+template <class T>
+HourglassReturn<T> hourglass_return(const CentreStress<T>& centre, const T& plastic_strain, const HexahedronCoefficients<T>& c,
+                                    const std::array<T, 12>& stress, const T& energy, const T& volume, const HourglassFlow& flow) {
   // Six patterns, of each of which mises^2 <= 4 E energy / volume at the points.
   const T reach = square_root((24.0 * flow.young) * energy / volume + std::numeric_limits<double>::min());
-  if (!any(value_of(trial + reach) > flow.least_yield)) return T(1.0);
-
-  const auto curve = flow.yield.static_curve(value_of(plastic_strain));
-  const T limit = maximum(centre.mises, T(curve.value) + T(curve.slope) * (plastic_strain - T(value_of(plastic_strain))));
-  const SymmetricTensor<T> of_centre = (trial / centre.mises) * centre.deviator;
-  const HourglassField<T> field(c, stress, volume);
-  constexpr double least = std::numeric_limits<double>::min();
-  const auto excess = [&](const T& square) { return maximum(1.0 - limit / square_root(maximum(1.5 * square, T(least))), T(0.0)); };
-  T lost = T(0.0), whole = T(least), largest = T(0.0);
-  for (const double x : {-1.0, 1.0})
-    for (const double y : {-1.0, 1.0})
-      for (const double z : {-1.0, 1.0}) {
-        const auto h = field.at(x, y, z);
-        const T square = double_contraction(h, h), shared = double_contraction(h, of_centre);
-        lost = lost + excess((1.0 / 1.5) * (trial * trial) + square + 2.0 * shared) * (square + shared);
-        whole = whole + square;
-        largest = maximum(largest, square);
-      }
-  const T fading = 1.0 - 2.0 * (1.0 - centre.mises / trial), alone = 1.0 - excess(largest);
-  return maximum(maximum(1.0 - lost / whole, -maximum(-fading, -alone)), T(0.0));
+  if (!any(value_of(reach) > (1.0 - HourglassFlow::taken) * flow.least_yield)) return {};
+  const T trial = hourglass_mises(c, stress, volume);
+  const T kept = -maximum(-trial, -hourglass_limit(centre, plastic_strain, trial, flow));
+  return {kept / trial, (1.0 / flow.young) * (trial - kept)};
 }
 
 /// The record of an element that has flowed: map and stiffness (reduced_brick_reference.hpp) are of its new shape. `Real` is Pack or

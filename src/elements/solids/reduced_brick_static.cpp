@@ -34,7 +34,7 @@ std::array<Vector3<T>, 8> ReducedBrick::static_forces(const HexahedronCoefficien
   if (flow_.active()) {
     const auto shape = flowed_reference(reference, old_history);
     const auto trial = hourglass_vectors(c, f, shape);
-    return forces(flowed(factor_of(c, trial, f, stress, plastic, shape, old_history), trial), shape);
+    return forces(flowed(return_of(c, trial, f, stress, plastic, shape, old_history).factor, trial), shape);
   }
   const auto q = hourglass_vectors(c, f, reference);
   if (!enhanced_)
@@ -47,12 +47,13 @@ void ReducedBrick::advance_shape(const HexahedronCoefficients<double>& c, const 
                                  std::span<double> history) const {
   const auto shape = flowed_reference(reference, old_history);
   const auto trial = hourglass_vectors(c, f, shape);
-  const double factor = factor_of(c, trial, f, stress, plastic, shape, old_history);
+  const auto [factor, hardening] = return_of(c, trial, f, stress, plastic, shape, old_history);
   const auto change = shape_change(factor, trial, invariants(f));
   for (int k = 0; k < 12; ++k) history[own_history + k] += change[k];
   const double energy = HourglassTrial<double>(c, trial, shape).energy;
-  history[own_history + 12] += flow_dissipation(factor, energy, old_history[own_history + 13]);
-  history[own_history + 13] = factor * factor * energy;
+  history[own_history + HourglassFlow::dissipated] += flow_dissipation(factor, energy, old_history[own_history + HourglassFlow::elastic]);
+  history[own_history + HourglassFlow::elastic] = factor * factor * energy;
+  history[own_history + HourglassFlow::hardening] += hardening;
 }
 
 bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
