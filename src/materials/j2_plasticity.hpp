@@ -256,9 +256,8 @@ void J2Plasticity::flow_back(const SymmetricTensor<T>& trial_strain, SymmetricTe
   state.dissipation = state.dissipation + flowed * along;
   state.equivalent_plastic_strain = state.equivalent_plastic_strain + flowed;
 
-  const Matrix3<V> values = plastic_step(j2_detail::values(trial_strain), V(1.5 * dp) * j2_detail::values(unit));
-  Matrix3<T> step;  // nothing takes derivatives of the new state
-  for (int i = 0; i < 9; ++i) step.component[i] = T(V(select(yields, values.component[i], V(0.0))));
+  Matrix3<T> step = plastic_step(trial_strain, (1.5 * flowed) * unit);
+  for (int i = 0; i < 9; ++i) step.component[i] = select(yields, step.component[i], T(0.0));
   state.plastic = state.plastic + step + state.plastic * step;
 }
 

@@ -16,6 +16,7 @@
 //          EnergyDensity energy(F or E, const State<double>&), double transverse_stretch(E, const State<double>&)
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <memory>
 #include <span>
@@ -125,20 +126,20 @@ class LawOf final : public Law<kind> {
     }
   }
 
-  void history_slope(std::span<const double, n> strain, double increment, std::span<const double> old_history, int row,
-                     std::span<double, n> slope) const override {
+  void history_slopes(std::span<const double, n> strain, double increment, std::span<const double> old_history, int row,
+                      std::span<double> slopes) const override {
     if constexpr (Remembers<Formulas>) {
       Kinematics<Dual<n>> variables;
       for (int k = 0; k < n; ++k) component(variables, k) = Dual<n>(strain[k], k);
       auto state = Memory<Formulas, Dual<n>>::read(formulas_, old_history.data(), 1);
       formulas_.stress(variables, state, increment);
-      int at = 0;
+      int at = -row;
       for_each_scalar(formulas_, state, [&](const char*, int, const Dual<n>& scalar) {
-        for (int k = 0; k < n && at == row; ++k) slope[k] = scalar.derivative[k];
+        if (at >= 0 && at * n < static_cast<int>(slopes.size())) std::ranges::copy(scalar.derivative, slopes.begin() + at * n);
         ++at;
       });
     } else {
-      Law<kind>::history_slope(strain, increment, old_history, row, slope);
+      Law<kind>::history_slopes(strain, increment, old_history, row, slopes);
     }
   }
   bool bounds_spatial_gradient() const override {

@@ -77,9 +77,10 @@ class Law {
   /// old history; `history` is old on entry and new on return.
   virtual void tangent(std::span<const double, n> strain, double increment, std::span<double> history,
                        std::span<double, n> stress, std::span<double> stiffness) const = 0;
-  /// Derivative, by the strain, of row `row` of the history that `increment` after the old one closes at `strain`.
-  virtual void history_slope(std::span<const double, n> strain, double increment, std::span<const double> old_history, int row,
-                             std::span<double, n> slope) const;
+  /// Derivatives, by the strain, of the rows of the history from `row` on that `increment` after the old one closes at `strain`: n for
+  /// each row, as many rows as `slopes` has room for.
+  virtual void history_slopes(std::span<const double, n> strain, double increment, std::span<const double> old_history, int row,
+                              std::span<double> slopes) const;
   /// Whether the shear bound of a solid is |F^-1|^2 times one of the spatial gradient, d2W <= volumetric (tr l)^2 + 2 shear l : l
   /// with l = dF F^-1, which is the sharper one then.
   virtual bool bounds_spatial_gradient() const { return false; }
@@ -101,8 +102,8 @@ class Law {
 };
 
 template <PointKind kind>
-void Law<kind>::history_slope(std::span<const double, n>, double, std::span<const double>, int, std::span<double, n> slope) const {
-  for (double& component : slope) component = 0.0;
+void Law<kind>::history_slopes(std::span<const double, n>, double, std::span<const double>, int, std::span<double> slopes) const {
+  for (double& component : slopes) component = 0.0;
 }
 
 /// Row of a scalar of a law's history, an output variable by that name; -1 if the law has none.

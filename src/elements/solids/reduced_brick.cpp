@@ -114,12 +114,6 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
   const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
   for (int k = 0; k < 9; ++k) store(f.component[k], points.strain[k]);
   const auto component = [&](int k) { return Pack(&history[k * padded_size_ + element], std::experimental::element_aligned); };
-  const auto shape = [&] {  // as it was when the increment began
-    if constexpr (hourglass == Hourglass::flowing)
-      return FlowedReference<Pack, PackReference>(reference, flow_, own_history, component);
-    else
-      return reference;
-  }();
   material_.law->stress(points);
   Matrix3<Pack> stress;
   for (int k = 0; k < 9; ++k) stress.component[k] = load(points.stress[k]);
@@ -131,6 +125,12 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
   const BulkViscosity viscosity(cycle.linear_bulk_viscosity, cycle.quadratic_bulk_viscosity, material_.density,
                                 material_.wave_speed);
   const double inverse_increment = cycle.increment > 0.0 ? 1.0 / cycle.increment : 0.0;
+  auto shape = [&] {  // its plastic deformation is new, the rest as it was when the increment began
+    if constexpr (hourglass == Hourglass::flowing)
+      return FlowedReference<Pack, PackReference>(reference, flow_, own_history, component);
+    else
+      return reference;
+  }();
   std::array<Vector3<Pack>, 4> q = hourglass_vectors(c, f, shape);
   if constexpr (hourglass == Hourglass::flowing) {
     const HourglassTrial<Pack> trial(c, q, shape);
@@ -139,6 +139,7 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
                                                       trial.stress, trial.energy, volume, flow_);
     const auto change = shape_change(factor, q, invariant);
     q = flowed(factor, q);
+    shape.add_shape(change);
     const auto put = [&](int k, const Pack& value) {
       value.copy_to(&history[(own_history + k) * padded_size_ + element], std::experimental::element_aligned);
     };

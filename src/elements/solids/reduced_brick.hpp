@@ -70,27 +70,21 @@ class ReducedBrick final : public ElementGroup {
     return given_up + (flow_.failure < 0 ? elastic : select(history(flow_.failure) > 0.0, T(0.0), elastic));
   }
 
-  /// Force (and stiffness) of one element over any scalar: T = double or Dual<24>. `plastic` is the increment of PEEQ.
+  /// Force (and stiffness) of one element over any scalar: T = double or Dual<24>. `history(k)`: component k of the element's history
+  /// whose law's part is new.
   template <class T>
   std::array<Vector3<T>, 8> static_forces(const HexahedronCoefficients<T>& c, const Matrix3<T>& f, const Matrix3<T>& stress,
-                                          const T& plastic, const LaneReference& reference,
-                                          std::span<const double> old_history) const;
-  /// Lets the hourglass shape flow, from the new state of the law in `history`; the rest of it is old.
+                                          const LaneReference& reference, const auto& history) const;
+  /// Lets the hourglass shape flow: `history` has the law's new part, the rest of it is old.
   void advance_shape(const HexahedronCoefficients<double>& c, const Matrix3<double>& f, const Matrix3<double>& stress,
-                     double plastic, const LaneReference& reference, std::span<const double> old_history,
-                     std::span<double> history) const;
+                     const LaneReference& reference, std::span<double> history) const;
   /// hourglass_return() of hourglass vectors before their flow.
   template <class T>
-  HourglassReturn<T> return_of(const HexahedronCoefficients<T>& c, const std::array<Vector3<T>, 4>& trial, const Matrix3<T>& f,
-                               const Matrix3<T>& stress, const T& plastic, const FlowedReference<double, LaneReference>& shape,
-                               std::span<const double> old_history) const {
-    const HourglassTrial<T> of_trial(c, trial, shape);
-    const T plastic_strain = old_history[flow_.plastic_strain] + old_history[own_history + HourglassFlow::hardening] + plastic;
-    return hourglass_return(CentreStress<T>(stress, f), plastic_strain, c, of_trial.stress, of_trial.energy,
-                            T(shape[brick_record::volume]), flow_);
-  }
-  FlowedReference<double, LaneReference> flowed_reference(const LaneReference& reference, std::span<const double> history) const {
-    return {reference, flow_, own_history, [&](int k) { return history[k]; }};
+  HourglassReturn<T> return_of(const HexahedronCoefficients<T>& c, const Matrix3<T>& f, const Matrix3<T>& stress,
+                               const HourglassTrial<T>& trial, const LaneReference& reference, const auto& history) const {
+    const T plastic_strain = history(flow_.plastic_strain) + history(own_history + HourglassFlow::hardening);
+    return hourglass_return(CentreStress<T>(stress, f), plastic_strain, c, trial.stress, trial.energy,
+                            T(reference[brick_record::volume]), flow_);
   }
   template <class T>
   HexahedronCoefficients<T> coefficients_of(std::int32_t element, const double* position) const;

@@ -28,6 +28,7 @@ struct HourglassFlow {
   static constexpr int dissipated = 12, elastic = 13, hardening = 14, history_size = 15;
   /// Share of the hourglass's yield stress that a centre which flows takes.
   static constexpr double taken = 0.9;
+  static constexpr int law_rows = 10;      // of the law's history: Fp^-1 - 1, and PEEQ after it
   int plastic_strain = -1;                 // PEEQ; -1: nothing yields
   int plastic_deformation = -1;            // Fp^-1 - 1
   int failure = -1;                        // FAILED; -1: nothing fails
@@ -109,29 +110,41 @@ HourglassReturn<T> hourglass_return(const CentreStress<T>& centre, const T& plas
   return {kept / trial, (1.0 / flow.young) * (trial - kept)};
 }
 
-/// The record of an element that has flowed: map and stiffness (reduced_brick_reference.hpp) are of its new shape. `Real` is Pack or
-/// double: the shape is that at the start of the increment, which has no derivative.
+/// The record of an element that has flowed: map and stiffness (reduced_brick_reference.hpp) are of its new shape. `Real`: Pack, double
+/// or a dual.
 template <class Real, class Reference>
 struct FlowedReference {
   static constexpr int first = brick_record::hourglass_map, last = brick_record::volume;
   const Reference& record;
   std::array<Real, last - first> changed;
-  Real inverse_size;   // largest eigenvalue of the inverse metric: 1 / (shortest half side)^2 of a box
-  Real distortion;     // |Q|^2 over the shortest reference half side squared
   Matrix3<Real> inverse_plastic;  // Fp^-1
+  Matrix3<Real> metric;           // of the sides, Fp (C_1, C_2, C_3)
 
   /// `history(k)`: component k of the element's history; `shape`: row of Q.
   FlowedReference(const Reference& reference, const HourglassFlow& flow, int shape, const auto& history) : record(reference) {
-    Real square = Real(0.0);
-    for (int k = 0; k < 12; ++k) {
-      const Real q = history(shape + k);
-      changed[k] = reference[first + k] + q;
-      square = square + q * q;
-    }
-    distortion = square * reference[brick_record::gradient_bound];
+    for (int k = 0; k < 12; ++k) changed[k] = reference[first + k] + history(shape + k);
     inverse_plastic = Matrix3<Real>::identity();
     for (int k = 0; k < 9; ++k) inverse_plastic.component[k] = inverse_plastic.component[k] + history(flow.plastic_deformation + k);
     set_moduli(flow);
+  }
+  /// Adds a change of Q.
+  void add_shape(const std::array<Real, 12>& change) {
+    for (int k = 0; k < 12; ++k) changed[k] = changed[k] + change[k];
+  }
+  /// Largest eigenvalue of the inverse metric: 1 / (shortest half side)^2 of a box.
+  Real inverse_size() const {
+    const Matrix3<Real> cof = cofactor(metric);
+    const Real over = 1.0 / determinant(metric, cof);
+    return largest_eigenvalue_bound(over * (cof(0, 0) + cof(1, 1) + cof(2, 2)), over * (metric(0, 0) + metric(1, 1) + metric(2, 2)));
+  }
+  /// |Q|^2 over the shortest reference half side squared.
+  Real distortion() const {
+    Real square = Real(0.0);
+    for (int k = 0; k < 12; ++k) {
+      const Real q = changed[k] - record[first + k];
+      square = square + q * q;
+    }
+    return square * record[brick_record::gradient_bound];
   }
   Real operator[](int k) const { return k >= first && k < last ? changed[k - first] : Real(record[k]); }
 
@@ -146,13 +159,8 @@ struct FlowedReference {
         for (int k = 1; k < 3; ++k) sum = sum + cof(k, j) * record[brick_record::stiffness + 3 * i + k];
         side[i][j] = inverse * sum;
       }
-    Matrix3<Real> metric;
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) metric(i, j) = dot(side[i], side[j]);
-    const Matrix3<Real> metric_cofactor = cofactor(metric);
-    const Real over = 1.0 / determinant(metric, metric_cofactor);
-    const Real trace = metric_cofactor(0, 0) + metric_cofactor(1, 1) + metric_cofactor(2, 2);
-    inverse_size = largest_eigenvalue_bound(over * trace, over * (metric(0, 0) + metric(1, 1) + metric(2, 2)));
 
     Real* const stiffness = &changed[brick_record::stiffness - first];
     const Real volume = record[brick_record::volume];

@@ -41,10 +41,10 @@ struct BrickStability {
     const T stretch = largest_eigenvalue_bound(double_contraction(elastic, elastic),
                                                double_contraction(cofactor_of_elastic, cofactor_of_elastic));
     const T size = dot(q[0], q[0]) + dot(q[1], q[1]) + dot(q[2], q[2]) + dot(q[3], q[3]);
-    const T overlap = flowed[brick_record::overlap], cosine = square_root(overlap) + square_root(flowed.distortion);
+    const T overlap = flowed[brick_record::overlap], cosine = square_root(overlap) + square_root(flowed.distortion());
     const T square = cosine * cosine + (1.0 - overlap);
-    const T modulus = flowed[brick_record::hourglass_bound] * flowed.inverse_size;
-    const T hourglass = modulus * square * (1.25 * stretch + 5.0 * (flowed.inverse_size * size));
+    const T inverse_size = flowed.inverse_size(), modulus = flowed[brick_record::hourglass_bound] * inverse_size;
+    const T hourglass = modulus * square * (1.25 * stretch + 5.0 * (inverse_size * size));
     return increment(c, bound, Hourglass{hourglass, cosine * cosine / square}, viscous_slope, flowed);
   }
 

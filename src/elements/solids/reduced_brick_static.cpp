@@ -25,16 +25,18 @@ HexahedronCoefficients<T> ReducedBrick::coefficients_of(std::int32_t element, co
 
 template <class T>
 std::array<Vector3<T>, 8> ReducedBrick::static_forces(const HexahedronCoefficients<T>& c, const Matrix3<T>& f,
-                                                      const Matrix3<T>& stress, const T& plastic, const LaneReference& reference,
-                                                      std::span<const double> old_history) const {
+                                                      const Matrix3<T>& stress, const LaneReference& reference,
+                                                      const auto& history) const {
   const Matrix3<T> integrated = T(reference[brick_record::volume]) * stress;
   const auto forces = [&](const std::array<Vector3<T>, 4>& q, const auto& shape) {
     return nodal_forces(conjugates_with_stresses(c, q, hourglass_stresses(hourglass_strains(c, q), shape), integrated, shape));
   };
   if (flow_.active()) {
-    const auto shape = flowed_reference(reference, old_history);
-    const auto trial = hourglass_vectors(c, f, shape);
-    return forces(flowed(return_of(c, trial, f, stress, plastic, shape, old_history).factor, trial), shape);
+    FlowedReference<T, LaneReference> shape(reference, flow_, own_history, history);
+    const auto q = hourglass_vectors(c, f, shape);
+    const T factor = return_of(c, f, stress, HourglassTrial<T>(c, q, shape), reference, history).factor;
+    shape.add_shape(shape_change(factor, q, invariants(f)));
+    return forces(flowed(factor, q), shape);
   }
   const auto q = hourglass_vectors(c, f, reference);
   if (!enhanced_)
@@ -43,17 +45,18 @@ std::array<Vector3<T>, 8> ReducedBrick::static_forces(const HexahedronCoefficien
 }
 
 void ReducedBrick::advance_shape(const HexahedronCoefficients<double>& c, const Matrix3<double>& f, const Matrix3<double>& stress,
-                                 double plastic, const LaneReference& reference, std::span<const double> old_history,
-                                 std::span<double> history) const {
-  const auto shape = flowed_reference(reference, old_history);
-  const auto trial = hourglass_vectors(c, f, shape);
-  const auto [factor, hardening] = return_of(c, trial, f, stress, plastic, shape, old_history);
-  const auto change = shape_change(factor, trial, invariants(f));
-  for (int k = 0; k < 12; ++k) history[own_history + k] += change[k];
-  const double energy = HourglassTrial<double>(c, trial, shape).energy;
-  history[own_history + HourglassFlow::dissipated] += flow_dissipation(factor, energy, old_history[own_history + HourglassFlow::elastic]);
-  history[own_history + HourglassFlow::elastic] = factor * factor * energy;
-  history[own_history + HourglassFlow::hardening] += hardening;
+                                 const LaneReference& reference, std::span<double> history) const {
+  const auto component = [&](int k) { return history[k]; };
+  const FlowedReference<double, LaneReference> shape(reference, flow_, own_history, component);
+  const auto q = hourglass_vectors(c, f, shape);
+  const HourglassTrial<double> trial(c, q, shape);
+  const auto [factor, hardening] = return_of(c, f, stress, trial, reference, component);
+  const auto change = shape_change(factor, q, invariants(f));
+  const auto own = history.subspan(own_history);
+  for (int k = 0; k < 12; ++k) own[k] += change[k];
+  own[HourglassFlow::dissipated] += flow_dissipation(factor, trial.energy, own[HourglassFlow::elastic]);
+  own[HourglassFlow::elastic] = factor * factor * trial.energy;
+  own[HourglassFlow::hardening] += hardening;
 }
 
 bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history,
@@ -72,32 +75,35 @@ bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, st
   std::array<double, 81> tangent;
   material_.law->tangent(f.component, quasi_static, new_history.subspan(law_row_), stress.component,
                          stiffness.empty() ? std::span<double>() : tangent);
-  const double plastic = flow_.active() ? new_history[flow_.plastic_strain] - old_history[flow_.plastic_strain] : 0.0;
-  if (flow_.active()) advance_shape(c, f, stress, plastic, record, old_history, new_history);
+  const std::vector<double> before_flow(new_history.begin(), new_history.end());
+  if (flow_.active()) advance_shape(c, f, stress, record, new_history);
 
   if (stiffness.empty()) {
-    const auto forces = static_forces(c, f, stress, plastic, record, old_history);
+    const auto forces = static_forces(c, f, stress, record, [&](int k) { return before_flow[k]; });
     for (int i = 0; i < 3 * nodes_per_brick; ++i) force[i] = forces[i / 3][i % 3];
     return true;
   }
   const auto c_dual = coefficients_of<Derivative>(element, motion.position);
   const Matrix3<Derivative> f_dual = mean_deformation_gradient(c_dual, record);
+  const auto chained = [&](double value, std::span<const double> slopes) {
+    Derivative result(value);
+    for (int j = 0; j < 9; ++j)
+      for (int k = 0; k < 3 * nodes_per_brick; ++k) result.derivative[k] += slopes[j] * f_dual.component[j].derivative[k];
+    return result;
+  };
   Matrix3<Derivative> stress_dual;
-  for (int i = 0; i < 9; ++i) {
-    stress_dual.component[i] = Derivative(stress.component[i]);
-    for (int j = 0; j < 9; ++j)
-      for (int k = 0; k < 3 * nodes_per_brick; ++k)
-        stress_dual.component[i].derivative[k] += tangent[9 * i + j] * f_dual.component[j].derivative[k];
-  }
-  Derivative plastic_dual(plastic);
+  for (int i = 0; i < 9; ++i) stress_dual.component[i] = chained(stress.component[i], std::span(tangent).subspan(9 * i, 9));
+  std::array<Derivative, HourglassFlow::law_rows> of_law;  // plastic deformation and strain
   if (flow_.active()) {
-    std::array<double, 9> slope;
-    material_.law->history_slope(f.component, quasi_static, old_history.subspan(law_row_), flow_.plastic_strain - law_row_, slope);
-    for (int j = 0; j < 9; ++j)
-      for (int k = 0; k < 3 * nodes_per_brick; ++k)
-        plastic_dual.derivative[k] += slope[j] * f_dual.component[j].derivative[k];
+    std::array<double, 9 * HourglassFlow::law_rows> slopes;
+    material_.law->history_slopes(f.component, quasi_static, old_history.subspan(law_row_), flow_.plastic_deformation - law_row_, slopes);
+    for (int i = 0; i < HourglassFlow::law_rows; ++i)
+      of_law[i] = chained(before_flow[flow_.plastic_deformation + i], std::span(slopes).subspan(9 * i, 9));
   }
-  const auto forces = static_forces(c_dual, f_dual, stress_dual, plastic_dual, record, old_history);
+  const auto forces = static_forces(c_dual, f_dual, stress_dual, record, [&](int k) {
+    const int row = k - flow_.plastic_deformation;
+    return row >= 0 && row < HourglassFlow::law_rows ? of_law[row] : Derivative(before_flow[k]);
+  });
   for (int i = 0; i < 3 * nodes_per_brick; ++i) {
     force[i] = forces[i / 3][i % 3].value;
     for (int j = 0; j < 3 * nodes_per_brick; ++j)
