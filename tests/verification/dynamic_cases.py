@@ -85,6 +85,31 @@ def procedures_in_turn(balocco, folder):
         check("energy in step %d" % step, np.abs(job.history("energy", "ETOTAL", step)[1] - 0.5e-4).max() / 0.5e-4, 0.0, 1e-4)
 
 
+def connectors(balocco, folder):
+    """A body on a spring and damper of a connector, along its axis (CARTESIAN) and about it (ROTATION), with and without large motion."""
+    kinds = {"CARTESIAN": ("2, 1, 1e-2", 1, "U"), "ROTATION": ("2, 4, 1e-2", 4, "UR")}
+    ratio, period = 0.05, 2.0 * math.pi / OMEGA
+    for kind, (velocity, dof, variable) in kinds.items():
+        for ranks, nlgeom in (("1", ""), ("2", ", NLGEOM")):
+            held = "\n".join("2, %d" % k for k in range(1, 7) if k != dof)
+            start = "" if variable == "UR" else "*INITIAL CONDITIONS, TYPE=VELOCITY\n%s\n" % velocity
+            push = "*CLOAD\n2, 4, 10.\n" if variable == "UR" else ""  # from rest: turns about 10 / 1000
+            job = Job("connector", balocco, ranks, folder)
+            job.run("*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*NSET, NSET=WATCHED\n2\n*ELEMENT, TYPE=MASS, ELSET=MASS\n1, 2\n*MASS, ELSET=MASS\n1.\n"
+                    "*ELEMENT, TYPE=ROTARYI, ELSET=TURN\n2, 2\n*ROTARY INERTIA, ELSET=TURN\n1., 1., 1.\n*ELEMENT, TYPE=CONN3D2, ELSET=C\n3, 1, 2\n"
+                    "*CONNECTOR SECTION, ELSET=C, BEHAVIOR=B\n%s\n*CONNECTOR BEHAVIOR, NAME=B\n*CONNECTOR ELASTICITY, COMPONENT=%d\n1000.\n"
+                    "*CONNECTOR DAMPING, COMPONENT=%d\n%.15g\n*BOUNDARY\n1, 1, 6\n%s\n%s*STEP, INC=100000%s\n%s\n%s%s*END STEP\n"
+                    % (kind, dof, dof, 2.0 * ratio * OMEGA, held, start, nlgeom, implicit(0.0, period / 200, 1.3 * period), push,
+                       HISTORY.replace("U, V", "%s, V" % variable)))
+            time, moved = job.history("node_2", variable)
+            if variable == "U":
+                expected = ringing(time, ratio)
+            else:
+                damped = OMEGA * math.sqrt(1.0 - ratio * ratio)
+                expected = 1e-2 * (1.0 - np.exp(-ratio * OMEGA * time) * (np.cos(damped * time) + ratio * OMEGA / damped * np.sin(damped * time)))
+            check("%s on %s ranks" % (kind, ranks), np.abs(moved[:, 0] - expected).max() / np.abs(expected).max(), 0.0, 3e-3)
+
+
 BAR = """*NODE
 %s*NSET, NSET=WATCHED, GENERATE
 1, 20
@@ -275,7 +300,7 @@ U, UR
 
 
 CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body, modal_response,
-                                            growing_increments, lone_masses, stopped_and_resumed)}
+                                            growing_increments, lone_masses, stopped_and_resumed, connectors)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](*sys.argv[2:])

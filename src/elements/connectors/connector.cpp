@@ -117,11 +117,15 @@ ConnectorGroup::Rate ConnectorGroup::rate(std::int32_t element, const Kinematics
                                           std::span<const double> old_motion) const {
   if (motion.velocity_slope <= 0.0) return mean_rate(now.motion, old_motion, motion.increment);
   Rate rate{.slope = motion.velocity_slope};
-  for (int end = 0; end < 2; ++end)
-    for (int k = 0; k < freedoms_per_node_; ++k) {
-      const double velocity = (k < 3 ? motion.velocity : motion.angular_velocity)[4 * std::ptrdiff_t{nodes(element)[end]} + k % 3];
-      for (int c = 0; c < 6; ++c) rate.velocity[c] += now.gradient[c][6 * end + k] * velocity;
-    }
+  const auto add = [&](const double* velocity, int column) {
+    for (int c = 0; c < 6; ++c)
+      for (int k = 0; k < 3; ++k) rate.velocity[c] += now.gradient[c][column + k] * velocity[k];
+  };
+  for (int end = 0; end < 2; ++end) {
+    const auto node = 4 * std::ptrdiff_t{nodes(element)[end]};
+    add(motion.velocity + node, 6 * end);
+    if (freedoms_per_node_ == 6) add(motion.angular_velocity + node, 6 * end + 3);
+  }
   return rate;
 }
 
