@@ -127,6 +127,8 @@ void RigidContact::add_stiff_force(std::int32_t point, const StiffCycle& cycle, 
   const double half = 0.5 * motion.average;
   const double before = nearest.distance - half * dot(motion.old_velocity, normal);
   const double after = nearest.distance + half * dot(motion.new_velocity, normal);
+  // An open spring holds no energy: where the start of a step, or another increment, finds it below the surface it begins down there.
+  if (state.closed == 0.0) state.multiplier = std::min(state.multiplier, state.stiff_spring * before);
   const double old_pressure = state.stiff_force;
   state.stiff_force = stiff_normal_force(state.multiplier, state.stiff_spring, before, after,
                                          half * motion.yielding * dot(free_normal, normal));

@@ -64,6 +64,14 @@ def hard_hits(job):
                 check_energy(job, 1e-2)
 
 
+def touching_at_the_start(job):
+    """A steel block falls on the ground from a gap of nothing, of less than an increment's way, and of many: no energy is created."""
+    for height in (0.0, 1e-4, 0.05):
+        job.run(block(3, 3, 3, (10.0, 10.0, 10.0), height=height, law="*ELASTIC\n210000., 0.3", density=7.8e-9, friction=0.3)
+                + "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 2, -5000.\n*STEP\n*DYNAMIC, EXPLICIT\n, 5e-5\n" + ENERGIES.format(2e-6))
+        check_energy(job, 2e-3)
+
+
 def hit_at_the_end(job):
     """Steps that end about the increment in which a block hits the ground: the watch over the energies stops none, nothing is created. (A
     point that opens in the very last instant does not give back what its spring still held in the middle of the increment before.)"""
@@ -223,7 +231,7 @@ def rigid_part(job):
     check("a run that resumes", float(np.isfinite(job.history("energy", "ETOTAL", 3)[1]).all()), 1.0, 0.0)
 
 
-CASES = {case.__name__: case for case in (bouncing_plate, hard_hits, hit_at_the_end, pressed_block, rubbing_block, lifted_block,
+CASES = {case.__name__: case for case in (bouncing_plate, hard_hits, touching_at_the_start, hit_at_the_end, pressed_block, rubbing_block, lifted_block,
                                           velocities_set_once, lost_energy, blown_up_at_the_end, crushed_block, folded_corner, past_the_end, below_the_ground,
                                           rigid_part)}
 
