@@ -55,14 +55,18 @@ std::string contradiction(const BeamProfile& profile) {
   }
 }
 
-/// The direction n1 of the second data line; without one (0, 0, -1).
+/// The direction n1 of the second data line, without one (0, 0, -1); of a part, it turns with its instance.
 bool read_beam_direction(Builder& builder, const Block& block, BeamProfile& profile) {
-  if (block.lines.size() < 2) return true;
-  Row row(builder, block, block.lines[1]);
-  for (int i = 0; i < 3; ++i) profile.n1[i] = row.real_or(i, i == 2 && !row.has(0) && !row.has(1) ? -1.0 : 0.0, "direction n1");
-  row.at_most(3);
-  if (row.ok() && profile.n1 == Point{}) row.error("the direction n1 has no length; give three components");
-  return row.ok();
+  Point given{0.0, 0.0, -1.0};
+  if (block.lines.size() > 1) {
+    Row row(builder, block, block.lines[1]);
+    for (int i = 0; i < 3; ++i) given[i] = row.real_or(i, i == 2 && !row.has(0) && !row.has(1) ? -1.0 : 0.0, "direction n1");
+    row.at_most(3);
+    if (row.ok() && given == Point{}) row.error("the direction n1 has no length; give three components");
+    if (!row.ok()) return false;
+  }
+  profile.n1 = builder.scope->turn(given);
+  return true;
 }
 
 /// An element whose axis runs along n1 is told with its number.

@@ -40,7 +40,16 @@ struct Cloud {
   std::int32_t reference = -1;
   std::vector<std::int32_t> nodes;
   std::vector<double> weights;
-  std::array<Point, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+  const Orientation* orientation = nullptr;  // null: global axes
+
+  /// Axes there: those of a cylindrical system differ from place to place.
+  std::array<Point, 3> axes_at(const Point& place) const {
+    std::array<Point, 3> result{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}};
+    if (!orientation) return result;
+    const auto axes = local_axes(*orientation, place);
+    for (int i = 0; i < 3; ++i) result[i] = {axes(i, 0), axes(i, 1), axes(i, 2)};
+    return result;
+  }
 };
 
 std::optional<std::int32_t> one_node(Builder& builder, const Block& block, const char* parameter) {
@@ -51,13 +60,11 @@ std::optional<std::int32_t> one_node(Builder& builder, const Block& block, const
   return std::nullopt;
 }
 
-bool find_axes(Builder& builder, const Block& block, Cloud& cloud) {
+bool find_orientation(Builder& builder, const Block& block, Cloud& cloud) {
   if (!block.has("ORIENTATION")) return true;
   const auto row = require_directions(builder, block.value("ORIENTATION"), block, block.location);
-  if (!row) return false;
-  const auto axes = local_axes(builder.model.orientations[*row], builder.model.nodes.coordinates[cloud.reference]);
-  for (int i = 0; i < 3; ++i) cloud.axes[i] = {axes(i, 0), axes(i, 1), axes(i, 2)};
-  return true;
+  if (row) cloud.orientation = &builder.model.orientations[*row];
+  return row.has_value();
 }
 
 /// The nodes that *COUPLING couples to its reference node.
@@ -67,7 +74,7 @@ std::optional<Cloud> read_cloud(Builder& builder, const Block& block) {
   const auto surface = builder.require(builder.surfaces, block.value("SURFACE"), block, block.location);
   if (!reference || !surface) return std::nullopt;
   cloud.reference = *reference;
-  if (!find_axes(builder, block, cloud)) return std::nullopt;
+  if (!find_orientation(builder, block, cloud)) return std::nullopt;
   const double radius = block.real("INFLUENCE RADIUS", HUGE_VAL);
   double nearest = HUGE_VAL;
   for (const auto& [node, share] : nodes_with_areas(builder.model, builder.model.surfaces[*surface])) {
@@ -105,7 +112,8 @@ std::optional<std::array<bool, 6>> read_freedoms(Builder& builder, const Block& 
 void add_kinematic(Builder& builder, const Cloud& cloud, const std::array<bool, 6>& freedoms, const char* keyword, Location location) {
   const auto turns = turning_nodes(builder.model);
   for (const auto node : cloud.nodes) {
-    Joint joint{.nodes = {cloud.reference, node}, .pieces = {}, .axes = cloud.axes, .second_axes = cloud.axes};
+    const auto axes = cloud.axes_at(builder.model.nodes.coordinates[node]);
+    Joint joint{.nodes = {cloud.reference, node}, .pieces = {}, .axes = axes, .second_axes = axes};
     const std::array translations{freedoms[0], freedoms[1], freedoms[2]}, rotations{freedoms[3], freedoms[4], freedoms[5]};
     if (std::ranges::count(translations, true) > 0) joint.pieces.push_back({Joint::Part::offset, translations});
     if (turns[node] && std::ranges::count(rotations, true) > 0) joint.pieces.push_back({Joint::Part::align, rotations});
@@ -124,7 +132,7 @@ void add_distributing(Builder& builder, const Cloud& cloud, std::array<bool, 6> 
 void turn_about_own_axes(Builder& builder, const Block& block, const Cloud& cloud, const std::array<bool, 6>& freedoms) {
   Model& model = builder.model;
   const auto location = builder.coupling->location;
-  std::get<DistributingCoupling>(model.constraints.back().kind).axes = cloud.axes;
+  std::get<DistributingCoupling>(model.constraints.back().kind).axes = cloud.axes_at(model.nodes.coordinates[cloud.reference]);
   const bool has_axes = std::ranges::any_of(model.transforms, [&](const auto& transform) { return std::ranges::count(transform.nodes, cloud.reference) > 0; });
   const bool has_elements = std::ranges::any_of(model.elements, [&](const auto& table) { return std::ranges::count(table.connectivity, cloud.reference) > 0; });
   if (has_axes || has_elements)
@@ -178,7 +186,7 @@ void read_kinematic_coupling(Builder& builder, const Block& block) {
   const auto reference = one_node(builder, block, "REF NODE");
   if (!reference) return;
   cloud.reference = *reference;
-  if (!find_axes(builder, block, cloud)) return;
+  if (!find_orientation(builder, block, cloud)) return;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     const auto first = row.integer_or(1, 1, "first degree of freedom"), last = row.integer_or(2, row.has(1) ? first : 6, "last degree of freedom");

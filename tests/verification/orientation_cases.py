@@ -98,5 +98,90 @@ def thickness_of_elements(run):
             check(f"{options}, {words}", np.abs(u - other).max() / np.abs(u).max(), 0.0, 1e-9)
 
 
+def coupling_in_cylindrical_axes(run):
+    """A ring whose outer face is coupled to a node on its axis along radii and tangents, each node in axes of its own: it turns by the
+    node's angle, and a pressure inside does not widen it."""
+    count, angle, pressure = 24, 0.3, 5.0
+    number = lambda i, j, k: 1 + i + 3 * (j + count * k)
+    place = lambda i, j, k: ((1.0 + 0.5 * i) * math.cos(2 * math.pi * j / count), (1.0 + 0.5 * i) * math.sin(2 * math.pi * j / count), float(k))
+    ids = [(i, j, k) for k in range(2) for j in range(count) for i in range(3)]
+    text = "*NODE, NSET=RING\n" + "".join("%d, %.15g, %.15g, %g\n" % (number(*n), *place(*n)) for n in ids) + "*NODE, NSET=AXLE\n9001, 0., 0., 0.\n"
+    bricks = [[number(i + a, (j + b) % count, c) for c in range(2) for a, b in ((0, 0), (1, 0), (1, 1), (0, 1))] for j in range(count) for i in range(2)]
+    text += "*ELEMENT, TYPE=C3D8, ELSET=ALL\n" + "".join("%d, %s\n" % (e + 1, ", ".join(map(str, brick))) for e, brick in enumerate(bricks))
+    text += "*ELSET, ELSET=INNER, GENERATE\n1, %d, 2\n*ELSET, ELSET=OUTER, GENERATE\n2, %d, 2\n" % (2 * count - 1, 2 * count)
+    text += """*SURFACE, NAME=INSIDE
+INNER, S6
+*SURFACE, NAME=OUTSIDE
+OUTER, S4
+*MATERIAL, NAME=M
+*ELASTIC
+1000., 0.3
+*SOLID SECTION, ELSET=ALL, MATERIAL=M
+*ORIENTATION, NAME=ROUND, SYSTEM=CYLINDRICAL
+0., 0., 0., 0., 0., 1.
+*COUPLING, REF NODE=9001, SURFACE=OUTSIDE, CONSTRAINT NAME=C, ORIENTATION=ROUND
+*KINEMATIC
+1, 2
+*STEP, NLGEOM
+*STATIC
+0.25, 1.
+*BOUNDARY
+RING, 3, 3
+9001, 1, 5
+9001, 6, 6, %g
+*DSLOAD
+INSIDE, P, %g
+*OUTPUT, FIELD, FREQUENCY=1, PRECISION=DOUBLE
+*NODE OUTPUT
+U
+*END STEP
+""" % (angle, pressure)
+    for ranks in (1, 2):
+        moved = run(text, ranks).frame("U", -1)[:len(ids)]
+        at = np.array([place(*n) for n in ids]) + moved
+        outer, inner = [np.array([n[0] == i for n in ids]) for i in (2, 0)]
+        turned = np.array([place(*n) for n in ids]) @ np.array([[math.cos(angle), math.sin(angle), 0], [-math.sin(angle), math.cos(angle), 0], [0, 0, 1]])
+        check("the outer face turns with its node", np.abs(at - turned)[outer].max(), 0.0, 1e-9)
+        check("the inner one widens", float((np.hypot(at[:, 0], at[:, 1])[inner] > 1.0 + 1e-3).all()), 1.0, 0.0)
+
+
+def section_turns_with_its_part(run):
+    """A cantilever of a part whose instance is turned by 90 degrees about its axis, or about another: n1 of its section turns along, also
+    where none is given. w = F L^3 / 3 E I and what shear adds."""
+    tip = {}
+    for name, direction, turn, load in (("as it is", "0., 1., 0.", "0., 0., 1., 0., 0., 0.", 3), ("about its axis", "0., 1., 0.", "0., 0., 0., 1., 0., 0., 90.", 2),
+                                        ("about z", "0., 1., 0.", "0., 0., 0., 0., 0., 1., 90.", 3), ("default", "", "0., 0., 0., 0., 1., 0., 90.", 2),
+                                        ("default as it is", "", "", 2)):
+        text = "*PART, NAME=P\n*NODE\n" + "".join("%d, %g, 0., 0.\n" % (i + 1, 0.1 * i) for i in range(11)) + "*ELEMENT, TYPE=B31, ELSET=E\n"
+        text += "".join("%d, %d, %d\n" % (i, i, i + 1) for i in range(1, 11)) + "*BEAM SECTION, SECTION=RECT, ELSET=E, MATERIAL=M\n0.02, 0.03\n"
+        text += (direction + "\n" if direction else "") + "*END PART\n*ASSEMBLY, NAME=A\n*INSTANCE, NAME=I, PART=P\n"
+        text += ("0., 0., 0.\n" + turn + "\n" if len(turn.split()) == 7 else "") + """*END INSTANCE
+*NSET, NSET=ROOT, INSTANCE=I
+1
+*NSET, NSET=TIP, INSTANCE=I
+11
+*END ASSEMBLY
+*MATERIAL, NAME=M
+*ELASTIC
+2e11, 0.3
+*STEP
+*STATIC
+*BOUNDARY
+ROOT, 1, 6
+*CLOAD
+TIP, %d, 10.
+*OUTPUT, FIELD, FREQUENCY=1, PRECISION=DOUBLE
+*NODE OUTPUT
+U
+*END STEP
+""" % load
+        tip[name] = np.abs(run(text, 1).frame("U", -1)[-1]).max()
+    across = 10.0 / (3.0 * 2e11 * 0.02 * 0.03 ** 3 / 12.0)  # bent about n1, by a force along n2
+    for name in ("as it is", "about its axis", "about z"):
+        check("deflection, turned " + name, tip[name], across, 5e-3)
+    check("deflection by the default direction", tip["default"], tip["default as it is"], 1e-9)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (directions_of_elements, thickness_of_elements)})
+    run_case({case.__name__: case for case in (directions_of_elements, thickness_of_elements, coupling_in_cylindrical_axes,
+                                                    section_turns_with_its_part)})
