@@ -4,11 +4,13 @@
 
 #include <algorithm>
 #include <array>
+#include <map>
 
 #include "deck/geometry.hpp"
 #include "deck/load_magnitude.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
+#include "sections/beam_section.hpp"
 
 namespace balocco::deck {
 
@@ -19,13 +21,17 @@ struct Label {
   BodyLoad::Kind kind;
   const char* magnitude;  // what the first number is
   std::array<double, 3> direction{};
+  bool by_length = false;  // of a line: becomes a force by volume
 };
 
 const std::array labels{Label{"GRAV", BodyLoad::Kind::gravity, "acceleration"},
                         Label{"CENTRIF", BodyLoad::Kind::centrifugal, "square of the angular velocity"},
                         Label{"BX", BodyLoad::Kind::volume_force, "force by volume", {1.0, 0.0, 0.0}},
                         Label{"BY", BodyLoad::Kind::volume_force, "force by volume", {0.0, 1.0, 0.0}},
-                        Label{"BZ", BodyLoad::Kind::volume_force, "force by volume", {0.0, 0.0, 1.0}}};
+                        Label{"BZ", BodyLoad::Kind::volume_force, "force by volume", {0.0, 0.0, 1.0}},
+                        Label{"PX", BodyLoad::Kind::volume_force, "force by length", {1.0, 0.0, 0.0}, true},
+                        Label{"PY", BodyLoad::Kind::volume_force, "force by length", {0.0, 1.0, 0.0}, true},
+                        Label{"PZ", BodyLoad::Kind::volume_force, "force by length", {0.0, 0.0, 1.0}, true}};
 
 const Label* find_label(const std::string& name) {
   const auto found = std::ranges::find_if(labels, [&](const Label& label) { return name == label.name; });
@@ -85,9 +91,48 @@ void read_numbers(Row& row, const Label& label, BodyLoad& load) {
   }
 }
 
+/// Sets of the lines of an element or a set, one for each area of their sections. Told where something else is among them.
+std::map<double, std::int32_t> lines_by_area(Builder& builder, const Block& block, Row& row) {
+  std::vector<ElementRef> elements;
+  std::map<double, std::int32_t> sets;
+  if (!builder.elements_of(row.text(0), block, row.location(), elements)) return sets;
+  std::map<double, std::vector<ElementRef>> found;
+  for (const auto element : elements) {
+    const auto& table = builder.model.elements[element.table];
+    const auto section = table.section[element.row];
+    const bool beam = table.type->section == Section::Kind::beam;
+    if (section < 0 || (!beam && table.type->section != Section::Kind::truss)) {
+      row.error(fmt::format("element {} of type {} cannot take the load {}, a force by length; load beams or trusses with a section",
+                            builder.model.element_name(element), table.type->name, row.name(1)));
+      return {};
+    }
+    const auto& data = builder.model.sections[section];
+    found[beam ? beam_area(data.beam).area : data.area].push_back(element);
+  }
+  for (const auto& [area, members] : found) {
+    sets[area] = builder.element_set_row(fmt::format("_DLOAD-{}-{}", row.name(0), sets.size()));
+    if (!builder.elements_in(sets[area]).empty()) continue;  // made by a line before
+    for (const auto element : members) builder.add_to_element_set(sets[area], element);
+    builder.elements_in(sets[area]);
+  }
+  return sets;
+}
+
 bool replaces(const BodyLoad& load, const BodyLoad& other) {
   return load.kind == other.kind && load.element_set == other.element_set && load.direction == other.direction &&
          load.point == other.point;
+}
+
+void set_body_load(Builder& builder, const BodyLoad& load) {
+  auto& loads = current_step(builder).body_loads;
+  const auto found = std::ranges::find_if(loads, [&](const BodyLoad& other) { return replaces(load, other); });
+  if (found == loads.end()) {
+    loads.push_back(load);
+    return;
+  }
+  const double previous = found->previous;
+  *found = load;
+  found->previous = previous;
 }
 
 }  // namespace
@@ -106,22 +151,24 @@ void read_body_load(Builder& builder, const Block& block, Row& row, std::int32_t
   load.kind = label.kind;
   read_numbers(row, label, load);
   if (!row.ok()) return;
-  const auto set = set_of(builder, block, row, load.kind);
-  if (!set) return;
-  load.element_set = *set;
-  load.magnitude = scaled(builder, amplitude, load.magnitude);
   load.amplitude = amplitude;
   load.file = row.location().file;
   load.line = row.location().line;
   builder.draft.said.insert({load.file, load.line});
-  auto& loads = current_step(builder).body_loads;
-  const auto found = std::ranges::find_if(loads, [&](const BodyLoad& other) { return replaces(load, other); });
-  if (found == loads.end()) {
-    loads.push_back(load);
-  } else {
-    load.previous = found->previous;
-    *found = load;
+  const double magnitude = scaled(builder, amplitude, load.magnitude);
+  if (label.by_length) {
+    for (const auto& [area, set] : lines_by_area(builder, block, row)) {
+      load.element_set = set;
+      load.magnitude = magnitude / area;
+      set_body_load(builder, load);
+    }
+    return;
   }
+  const auto set = set_of(builder, block, row, load.kind);
+  if (!set) return;
+  load.element_set = *set;
+  load.magnitude = magnitude;
+  set_body_load(builder, load);
 }
 
 std::string body_load_text(const BodyLoad& load) {

@@ -40,10 +40,12 @@ void read_surface_load(Builder& builder, const Block& block) {
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     const auto surface = builder.require(builder.surfaces, row.name(0), block, line.location);
+    if (row.name(1) != "P") {
+      row.error(fmt::format("load type '{}' is not supported; allowed: P", row.text(1)));
+      continue;
+    }
     const double magnitude = row.real(2, "pressure");
     row.at_most(3);
-    if (row.ok() && row.name(1) != "P")
-      row.error(fmt::format("load type '{}' is not supported; allowed: P", row.text(1)));
     if (!row.ok() || !surface) continue;
     if (builder.model.surfaces[*surface].kind != Surface::Kind::element_faces) {
       row.error(fmt::format("surface {} has no element faces to press on; use a surface of TYPE=ELEMENT", row.name(0)));
@@ -74,7 +76,8 @@ std::optional<std::int32_t> pressed_surface(Builder& builder, const Block& block
     const ElementType& type = *builder.model.elements[element.table].type;
     const int face = pressed_face(type, label);
     if (face < 0) {
-      row.error(fmt::format("element {} of type {} cannot take the load {}; solids take P1 to P6 by face, membranes P",
+      row.error(fmt::format("element {} of type {} cannot take the load {}; solids take P1 to P6 by face, membranes and shells P, "
+                            "beams PX, PY and PZ along global axes",
                             builder.model.element_name(element), type.name, label));
       return std::nullopt;
     }
@@ -97,11 +100,12 @@ void read_distributed(Builder& builder, const Block& block) {
       read_body_load(builder, block, row, *amplitude);
       continue;
     }
+    if (label != "P" && !(label.size() == 2 && label[0] == 'P')) {
+      row.error(fmt::format("load type '{}' is not supported; allowed: P, P1 to P6, {}", row.text(1), body_load_labels()));
+      continue;
+    }
     const double magnitude = row.real(2, "pressure");
     row.at_most(3);
-    if (row.ok() && label != "P" && !(label.size() == 2 && label[0] == 'P')) {
-      row.error(fmt::format("load type '{}' is not supported; allowed: P, P1 to P6, {}", row.text(1), body_load_labels()));
-    }
     if (!row.ok()) continue;
     if (const auto surface = pressed_surface(builder, block, row)) {
       set_pressure(builder, *surface, magnitude, *amplitude, line.location);

@@ -97,8 +97,8 @@ void read_element_field(Builder& builder, const Block& block) {
   auto& target = at_points ? output.integration_point_variables : output.element_variables;
   for (const auto& variable : asked_by_variable(block, preselected_element, all_element)) add(target, variable);
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
-    add(target, variable);
-    builder.asked_element_variables.push_back({variable, row.location()});
+    add(target, whole_variable(variable));
+    builder.asked_element_variables.push_back({whole_variable(variable), row.location()});
   });
 }
 
@@ -110,8 +110,8 @@ void read_element_history(Builder& builder, const Block& block) {
   request.set = *set;
   request.variables = asked_by_variable(block, preselected_element, all_element);
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
-    add(request.variables, variable);
-    builder.asked_element_variables.push_back({variable, row.location()});
+    add(request.variables, whole_variable(variable));
+    builder.asked_element_variables.push_back({whole_variable(variable), row.location()});
   });
   if (!request.variables.empty()) builder.model.steps.back().history_outputs.back().elements.push_back(std::move(request));
 }

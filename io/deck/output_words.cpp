@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 
 #include "deck/text.hpp"
 
@@ -45,7 +46,21 @@ void add(Words& words, const std::string& word) {
 }
 
 bool is_abaqus_only(const std::string& variable) {
-  return contains(abaqus_only, variable);
+  static const Words components_only{"CF1", "CF2", "CF3", "CM1", "CM2", "CM3", "TF1", "TF2", "TF3", "TM1", "TM2", "TM3", "COOR1", "COOR2", "COOR3"};
+  return contains(abaqus_only, variable) || contains(components_only, variable);
+}
+
+std::string whole_variable(const std::string& component) {
+  static const Words tensors{"S", "E", "LE", "EE", "NE", "PE", "ER", "SE", "SS"}, pairs{"11", "22", "33", "12", "13", "23"};
+  for (const auto& tensor : tensors)
+    for (const auto& pair : pairs)
+      if (component == tensor + pair) return tensor;
+  static const std::map<std::string, std::string> vectors{
+      {"SF", "SF"},   {"SM", "SM"},   {"SK", "SK"},   {"CTF", "CTF"}, {"CTM", "CTF"}, {"CEF", "CEF"}, {"CEM", "CEF"}, {"CVF", "CVF"},
+      {"CVM", "CVF"}, {"CRF", "CRF"}, {"CRM", "CRF"}, {"CU", "CU"},   {"CUR", "CU"},  {"CV", "CV"},   {"CVR", "CV"}};
+  const bool numbered = !component.empty() && component.back() >= '1' && component.back() <= '6';
+  const auto vector = vectors.find(component.substr(0, component.size() - (numbered ? 1 : 0)));
+  return numbered && vector != vectors.end() ? vector->second : component;
 }
 
 void unknown_variable(Builder& builder, const Block& block, Row& row, const std::string& variable, const Words& known) {

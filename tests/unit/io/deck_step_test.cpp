@@ -180,6 +180,31 @@ TEST(DeckStep, FieldOutputOfASetIsKeptApart) {
   }
 }
 
+TEST(DeckStep, ComponentsStandForTheirVariables) {
+  const auto step = steps_of("*STEP\n*STATIC\n*OUTPUT, HISTORY\n*ELEMENT OUTPUT, ELSET=ALL\nS11, LE12, MISES, S33\n*OUTPUT, FIELD\n"
+                             "*ELEMENT OUTPUT\nS22\n*NODE OUTPUT\nU\n*END STEP\n")[0];
+  EXPECT_EQ(step.history_outputs[0].elements[0].variables, (std::vector<std::string>{"S", "LE", "MISES"}));
+  EXPECT_EQ(step.field_outputs[0].element_variables, (std::vector<std::string>{"S"}));
+  const auto errors = errors_of(brick + "*STEP\n*STATIC\n*OUTPUT, FIELD\n*ELEMENT OUTPUT\nS44\n*END STEP\n");
+  EXPECT_NE(errors.find("no element of the model has the variable S44"), std::string::npos) << errors;
+}
+
+TEST(DeckStep, LinesTakeForcesByLength) {
+  const std::string bar = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 2., 0., 0.\n*ELEMENT, TYPE=B31, ELSET=A\n1, 1, 2\n*ELEMENT, TYPE=T3D2, ELSET=B\n2, 2, 3\n"
+                          "*ELSET, ELSET=LINES\nA, B\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*BEAM SECTION, SECTION=RECT, ELSET=A, MATERIAL=M\n2., 3.\n"
+                          "*SOLID SECTION, ELSET=B, MATERIAL=M\n4.\n";
+  const auto model = read(bar + "*STEP\n*STATIC\n*DLOAD\nLINES, PY, 12.\n*END STEP\n*STEP\n*STATIC\n*DLOAD\nLINES, PY, 24.\n*END STEP\n").model;
+  for (int step = 0; step < 2; ++step) {
+    const auto& loads = model.steps[step].body_loads;
+    ASSERT_EQ(loads.size(), 2u);
+    EXPECT_EQ(loads[0].magnitude, (1 + step) * 12.0 / 4.0);
+    EXPECT_EQ(loads[1].magnitude, (1 + step) * 12.0 / 6.0);
+    EXPECT_EQ(loads[0].direction, (std::array<double, 3>{0.0, 1.0, 0.0}));
+  }
+  const auto errors = errors_of(brick + "*STEP\n*STATIC\n*DLOAD\nALL, PX, 1.\n*END STEP\n");
+  EXPECT_NE(errors.find("load beams or trusses"), std::string::npos) << errors;
+}
+
 TEST(DeckStep, AllIsMoreThanThePreselection) {
   const std::vector<std::string> of_a_brick{"S", "LE", "MISES", "PRESS", "SENER", "ELSE", "ELASE"};
   const auto steps = steps_of(
