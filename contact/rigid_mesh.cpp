@@ -20,6 +20,8 @@ double angle_between(const Vector3<double>& a, const Vector3<double>& b) { retur
 
 /// Distance below which the direction from an edge or vertex is round-off, of the bucket size.
 constexpr double touching = 1e-9;
+// How far beyond a free edge its facet reaches, as a share of the spacing.
+constexpr double margin = 1e-6;
 
 }  // namespace
 
@@ -127,7 +129,9 @@ RigidMesh::Foot RigidMesh::foot(const Triangle& triangle, const Vector3<double>&
   for (int i = 0; i < 3; ++i) {
     const auto& a = vertices_[triangle.vertex[i]];
     const auto side = vertices_[triangle.vertex[(i + 1) % 3]] - a, arm = place - a;
-    if (dot(cross(side, arm), triangle.normal) >= 0.0) continue;  // on the inner side of this edge
+    // On the inner side of this edge; a free one a little further, or rounding would decide where nodes along it belong.
+    const double reach = edges_[triangle.edge[i]].facets == 1 ? margin * spacing_ * norm(side) : 0.0;
+    if (dot(cross(side, arm), triangle.normal) >= -reach) continue;
     inside = false;
     const double along = dot(arm, side) / dot(side, side);
     Foot here{.edge = i};

@@ -73,6 +73,17 @@ TEST(RigidMesh, BeyondAFreeEdgeThereIsNoBody) {
   EXPECT_FALSE(sheet.surely_outside({0.5, 0.5, -0.2}));
 }
 
+/// Nodes along a free edge stay over their facet whatever rounding does to them.
+TEST(RigidMesh, RoundingDoesNotCarryOverAFreeEdge) {
+  const RigidMesh sheet({{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}}, Facets{{0, 1, 2, 3}});
+  for (const double beyond : {-1e-12, 0.0, 1e-12, 1e-8}) {
+    const auto at = sheet.nearest(Vector3<double>{1.0 + beyond, 0.4, -1e-3});
+    EXPECT_NEAR(at.distance, -1e-3, 1e-15) << beyond;
+    EXPECT_NEAR(at.normal[2], 1.0, 1e-15) << beyond;
+  }
+  EXPECT_GT(sheet.nearest(Vector3<double>{1.001, 0.4, -1e-3}).distance, 0.0);
+}
+
 TEST(RigidMesh, DerivativeIsTheNormal) {
   const RigidMesh mesh = cube();
   std::mt19937 random(5);

@@ -167,6 +167,7 @@ TEST(StiffContact, AHeldDirectionDoesNotYield) {
   body.freedom[0].velocity[0] = 0.0;
   body.height() = -1e-3;
   body.contact.points[0].stiff_spring = body.contact.k();
+  body.contact.points[0].closed = 1.0;
   body.speed() = 0.0;
   body.force.clear();
   const double force = body.cycle();
