@@ -5,5 +5,5 @@ verification_cases(constraint 120 coupled_tip turned_coupling equations tied_blo
 verification_cases(connector 120 strut damped_strut struck_pendulum braked_rotor rubbing_slider slider_crank on_the_ground driven_hinge thrown_off joints_of_constraints)
 verification_cases(rigid_part 120 carousel thrown_plate carried_inertia plates_made_rigid)
 verification_cases(import 120 driving_from_an_equilibrium importing_parts importing_the_mesh importing_copies bodies_keep_their_nodes)
-verification_cases(linkage 120 heavy_top blown_flaps joined_instances)
+verification_cases(linkage 120 heavy_top blown_flaps thrown_crank loaded_crank joined_instances)
 verification_cases(weld 120 closed_section tied_sheets tumbling_star sheets_thrown)

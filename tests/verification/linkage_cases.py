@@ -7,6 +7,7 @@ import numpy as np
 
 from connector_cases import last
 from explicit_cases import check, check_energy, run_case
+from joint_cases import deck_of_rods, rods
 from motion_decks import G, explicit_step, history, integrate
 
 
@@ -147,6 +148,134 @@ def blown_flaps(run):
         check("order of convergence", float(np.median(found)), 2.0, 0.25)
 
 
+def crank_geometry(r, l):
+    """Of a crank of length r at an angle a, a connecting rod of length l and a slider on the x axis: the angle of the rod, the
+    place of the slider, and how both change with a."""
+
+    def at(a):
+        b = -np.arcsin(r * np.sin(a) / l)
+        rate = -r * np.cos(a) / (l * np.cos(b))
+        return b, r * np.cos(a) + l * np.cos(b), rate, -r * np.sin(a) - l * np.sin(b) * rate
+
+    return at
+
+
+def crank_deck(start, r, l, spring=""):
+    """Crank, rod and slider from an angle of the crank: hinges, a ball joint at the slider, and a translator between it and the ground."""
+    rod, slider, _, _ = crank_geometry(r, l)(start)
+    knee = (r * math.cos(start), r * math.sin(start))
+    lines, centres = rods([(0.0, 0.0), knee, (float(slider), 0.0)])
+    lines["node"].append(f"3, {float(slider)!r}, 0., 0.\n4, {float(slider)!r}, 0., 0.")
+    return lines, centres, f"""*ELEMENT, TYPE=MASS, ELSET=SLIDER
+7000, 4
+*MASS, ELSET=SLIDER
+0.5
+*ELEMENT, TYPE=ROTARYI, ELSET=SLIDERI
+7003, 4
+*ROTARY INERTIA, ELSET=SLIDERI
+0.01, 0.01, 0.01
+*ELEMENT, TYPE=CONN3D2, ELSET=PIN
+7001, 22, 4
+*ELEMENT, TYPE=CONN3D2, ELSET=GUIDE
+7002, 3, 4
+*ELSET, ELSET=CRANK
+3000
+*ORIENTATION, NAME=ALONG_X
+1., 0., 0., 0., 1., 0.
+*CONNECTOR SECTION, ELSET=PIN
+JOIN
+*CONNECTOR BEHAVIOR, NAME=GUIDE
+{spring}*CONNECTOR SECTION, ELSET=GUIDE, BEHAVIOR=GUIDE
+TRANSLATOR
+ALONG_X
+*BOUNDARY
+3, 1, 6
+"""
+
+
+def thrown_crank(run):
+    """A crank that is thrown and then left to itself, its rod and slider, with gravity and without: the equation of motion of its one
+    degree of freedom; 1e5 increments leave the joints closed and keep the energy."""
+    r, l, start, speed, slider_mass = 0.3, 0.8, 0.4, 6.0, 0.5
+    geometry = crank_geometry(r, l)
+
+    def inertia(a):  # of bars that weigh what they are long: twice the kinetic energy at unit speed
+        b, x, rate, slide = geometry(a)
+        middle = ((slide - r * np.sin(a)) / 2, r * np.cos(a) / 2)
+        return r * r**2 / 3 + l * (middle[0]**2 + middle[1]**2) + l * l**2 / 12 * rate**2 + slider_mass * slide**2
+
+    rod, slider, rod_rate, slide = (float(value) for value in geometry(start))
+    knee = (r * math.cos(start), r * math.sin(start))
+    lines, centres, joints = crank_deck(start, r, l)
+    throw = f"""*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY
+{centres[0]}, {speed}, 0., 0., 0.
+0., 0., 0., 0., 0., 1.
+{centres[1]}, {speed * rod_rate!r}, {-speed * knee[1]!r}, {speed * knee[0]!r}, 0.
+{knee[0]!r}, {knee[1]!r}, 0., {knee[0]!r}, {knee[1]!r}, 1.
+*INITIAL CONDITIONS, TYPE=VELOCITY
+4, 1, {speed * slide!r}
+*NSET, NSET=SHOWN
+{centres[0]}, {centres[1]}, 4
+"""
+    for weight, ranks, duration in ((G, 1, 10.0), (G, 2, 0.5), (0.0, 1, 10.0)):
+        load = f"*DLOAD\n, GRAV, {weight}, 0., -1., 0.\n" if weight > 0.0 else ""
+        job = run(deck_of_rods(lines, centres, joints + throw + explicit_step(1e-4, duration, load, history("SHOWN", "U1, U2, UR3", 0.01))), ranks)
+        pull = weight * (r * r / 2 + l * r / 2)  # times sin a: the potential of the bars
+
+        def motion(state):
+            a, w = state
+            change = inertia(a + 1e-20j).imag / 1e-20
+            return np.array([w, -(0.5 * change * w * w + pull * math.cos(a)) / inertia(a)])
+
+        time, turn = job.history(f"node_{centres[0]}", "UR3")
+        expected = integrate(motion, [start, speed], time)
+        crank, bar = start + turn, rod + job.history(f"node_{centres[1]}", "UR3")[1]
+        of = lambda node, start: np.array([start[c] + job.history(f"node_{node}", f"U{c + 1}")[1] for c in (0, 1)])
+        end = lambda middle, angle, length: middle + 0.5 * length * np.array([np.cos(angle), np.sin(angle)])
+        first, second = of(centres[0], np.array(knee) / 2), of(centres[1], ((knee[0] + slider) / 2, knee[1] / 2))
+        at = of(4, (slider, 0.0))
+        gaps = [end(first, crank, -r), end(first, crank, r) - end(second, bar, -l), end(second, bar, l) - at, at[1]]
+        check(f"gravity {weight}: the crank turns", float(turn[-1] > 2.0 * duration), 1.0, 0.0)
+        check("gaps of the joints", max(np.abs(gap).max() for gap in gaps), 0.0, 1e-9 * (r + l))
+        # The increment's own error of phase, (w dt)^2 / 24 of the angle for the fastest motion there is, is a tenth of this.
+        check("angle of the crank", np.abs(crank - expected[:, 0]).max(), 0.0, 1e-5 * expected[-1, 0])
+        check_energy(job, 1e-3)
+
+
+def loaded_crank(run):
+    """Statics of the same: a moment on the crank against a spring on the slider, k (x - x0) dx/da = M, far beyond small angles."""
+    r, l, start, stiffness = 0.3, 0.8, 0.4, 200.0
+    geometry = crank_geometry(r, l)
+    lines, centres, joints = crank_deck(start, r, l, f"*CONNECTOR ELASTICITY, COMPONENT=1\n{stiffness}\n")
+    x0 = geometry(start)[1]
+    moment = lambda a: stiffness * (geometry(a)[1] - x0) * geometry(a)[3]
+    end = 1.6
+    step = f"""*STEP, NLGEOM, INC=200
+*STATIC
+0.1, 1., 1e-6, 0.1
+*CONNECTOR LOAD
+CRANK, 4, {float(moment(end))!r}
+*ELSET, ELSET=JOINTS
+CRANK, GUIDE, PIN
+*OUTPUT, HISTORY, FREQUENCY=1
+*ELEMENT OUTPUT, ELSET=JOINTS
+CU, CTF
+*END STEP
+"""
+    for ranks in (1, 2):
+        job = run(deck_of_rods(lines, centres, joints + step), ranks)
+        time, motion = job.history("element_3000", "CU")
+        angle = start + motion[:, 3]
+        check("angle at the end", angle[-1], end, 1e-8)
+        check("balance on the way", np.abs(moment(angle) - time * moment(end)).max() / moment(end), 0.0, 1e-7)
+        # Along the rod goes what the slider's spring and guide make together.
+        rod = geometry(end)[0]
+        pin = job.history("element_7001", "CTF")[1][-1]
+        check("force of the rod", np.linalg.norm(pin), abs(stiffness * (geometry(end)[1] - x0) / math.cos(rod)), 1e-7)
+        found = orders(job.log())
+        check("order of convergence", float(np.median(found)), 2.0, 0.25)
+
+
 def joined_instances(run):
     """Two instances of a bar that a connector of the assembly joins, as Abaqus/CAE writes it: they stretch as one bar."""
     deck = """*Heading
@@ -212,4 +341,4 @@ CTF
 
 
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (heavy_top, blown_flaps, joined_instances)})
+    run_case({case.__name__: case for case in (heavy_top, blown_flaps, thrown_crank, loaded_crank, joined_instances)})
