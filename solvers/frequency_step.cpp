@@ -59,6 +59,7 @@ void FrequencyStep::assemble() {
                                        .total_time = state.total_time,
                                        .initial_loads = true,
                                        .load_stiffness = !state.linear,
+                                       .arms_turn = !state.linear,
                                        .contact_sticks = true,
                                        .motion = still});
   if (!sound) throw AnalysisError(fmt::format("step '{}' cannot start: {}", step_.name, system_.trouble()));

@@ -62,7 +62,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   for (std::size_t slot = 0; slot < residual_.size(); ++slot) residual_[slot] -= external_[slot];
   // A linear step keeps the arms of bodies as they were.
   if (dynamics_ && analysis_.current.linear) stiffness_.set_weight(0.0);
-  gather_at_bodies(residual_);
+  gather_at_bodies(residual_, request.arms_turn);
   if (!dynamics_) add_half_residual_turns();
   turn_into_slot_directions(residual_);
   if (dynamics_) add_dynamics(request);

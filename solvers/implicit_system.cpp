@@ -92,11 +92,12 @@ std::span<const NodeMotion> ImplicitSystem::motions_of(const ElementGroup& group
   return motions_;
 }
 
+/// An element that holds a single node strains against the ground.
 bool ImplicitSystem::moves_as_one(const ElementGroup& group, std::int32_t element) const {
   const auto nodes = group.nodes(element);
   const auto body = analysis_.carrier(nodes[0]);
   const bool turns = group.freedoms_per_node() == 6;
-  return body >= 0 && std::ranges::all_of(nodes, [&](std::int32_t node) {
+  return body >= 0 && nodes.size() > 1 && std::ranges::all_of(nodes, [&](std::int32_t node) {
            return analysis_.carrier(node) == body && (!turns || analysis_.turning_body(node) == body);
          });
 }

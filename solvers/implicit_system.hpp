@@ -21,6 +21,7 @@ struct AssemblyRequest {
   bool inertia = true;         // dynamic: the weighted forces of the alpha method with inertia; false: the forces alone
   bool initial_loads = false;  // loads as they stood before the step began
   bool load_stiffness = true;  // follower pressure; a linear step leaves it out
+  bool arms_turn = true;       // with rigid bodies, and with them the moments of forces on carried nodes; likewise
   bool contact_sticks = false;  // closed points with friction stick in the stiffness, sliding or not
   std::span<const double>
       motion;                   // of each slot: stiffness().product() will hold this rank's part of stiffness * motion

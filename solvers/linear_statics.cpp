@@ -17,6 +17,7 @@ bool LinearStatics::assemble(AssemblyRequest request, std::span<const double> di
   const auto here = system_.configuration();
   system_.restore(reference_);
   request.load_stiffness = false;
+  request.arms_turn = !analysis_.current.linear;  // a perturbation feels the forces of its base
   request.motion = displacement;
   const bool sound = system_.assemble(request);
   system_.restore(here);

@@ -49,12 +49,14 @@ NodalMotion SmallStrainOutput::place(const ElementGroup& group, std::int32_t ele
     }
   if (group.freedoms_per_node() == 3) return {.position = trial_.data()};
   trial_orientation_.resize(state.orientation.size());
+  trial_rotation_.resize(state.rotation.size());
   for (const auto node : group.nodes(element)) {
     const double* const turn = &state.rotation[4 * node];
+    for (int i = 0; i < 3; ++i) trial_rotation_[4 * node + i] = factor * turn[i];
     std::ranges::copy(exponential(Vector3<double>{{factor * turn[0], factor * turn[1], factor * turn[2]}}),
                       &trial_orientation_[4 * node]);
   }
-  return {.position = trial_.data(), .orientation = trial_orientation_.data()};
+  return {.position = trial_.data(), .orientation = trial_orientation_.data(), .rotation = trial_rotation_.data()};
 }
 
 /// Taylor's polynomial of `order` 1 or 2: values of `evaluate(motion, history, values)` where the displacement is whole.

@@ -33,7 +33,7 @@ class SmallStrainOutput {
   void expand(const ElementGroup& group, std::int32_t element, const State& state, std::span<const double> history,
               Evaluate evaluate, int order, std::span<double> values);
 
-  std::vector<double> reference_, trial_, trial_orientation_;
+  std::vector<double> reference_, trial_, trial_orientation_, trial_rotation_;
   std::vector<double> trial_history_, force_;
 };
 
