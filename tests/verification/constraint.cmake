@@ -6,4 +6,6 @@ verification_cases(connector 120 strut damped_strut struck_pendulum braked_rotor
 verification_cases(rigid_part 120 carousel thrown_plate carried_inertia plates_made_rigid)
 verification_cases(import 120 driving_from_an_equilibrium importing_parts importing_the_mesh importing_copies bodies_keep_their_nodes)
 verification_cases(linkage 120 heavy_top blown_flaps thrown_crank loaded_crank joined_instances)
+verification_cases(multi_point 120 revolute_angle universal_angles rigid_chains)
+verification_cases(shared_coupling 120 with_each_other with_ties with_bodies)
 verification_cases(weld 120 closed_section tied_sheets tumbling_star sheets_thrown)
