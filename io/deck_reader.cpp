@@ -10,6 +10,7 @@
 #include "deck/digest.hpp"
 #include "deck/element_spellings.hpp"
 #include "deck/groups.hpp"
+#include "deck/held_rotations.hpp"
 #include "deck/schedule.hpp"
 #include "deck/shell_sections.hpp"
 #include "deck/tokens.hpp"
@@ -108,7 +109,9 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
   if (const auto& import = builder.model.state_import;
       import && import->update && options.move_imported_nodes && diagnostics.number_of_errors() == 0)
     options.move_imported_nodes(builder.model);
-  for (const Phase phase : {Phase::sections, Phase::constraints, Phase::history}) run_phase(builder, tasks, phase);
+  for (const Phase phase : {Phase::sections, Phase::constraints}) run_phase(builder, tasks, phase);
+  hold_rotations(builder);
+  run_phase(builder, tasks, Phase::history);
   throw_if_wrong(diagnostics, tokens.files);
   const auto implied = drop_implied_joints(builder.model);
   join_rigid_clouds(builder.model);

@@ -14,6 +14,7 @@
 #include "explicit_scale.hpp"
 #include "loads/body_load.hpp"
 #include "math/rotation.hpp"
+#include "model/check_constraints.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -187,7 +188,8 @@ bool Analysis::stays_linear(const Step& step) const {
   if (!current.linear || step.is_perturbation()) return current.linear;
   if (std::ranges::any_of(model.materials, [](const auto& material) { return !material.options.empty(); })) return false;
   if (std::ranges::any_of(model.sections, [](const auto& section) { return !section.spring.table.empty(); })) return false;
-  if (std::ranges::any_of(constraints, [](const auto& constraint) { return constraint->is_one_sided() || constraint->guide() != nullptr; })) return false;
+  for (std::size_t index = 0; index < constraints.size(); ++index)
+    if (constraints[index]->is_one_sided() || is_acting_guide(model, index)) return false;
   const auto* procedure = step.implicit_increments();
   const bool ties_moved_nodes =
       current.total_time > 0.0 && std::ranges::any_of(step.attachments, [](const auto& change) { return !change.release; });

@@ -5,6 +5,7 @@
 #include "analysis.hpp"
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
+#include "joint_angles.hpp"
 #include "math/rotation.hpp"
 #include "total_force.hpp"
 
@@ -134,6 +135,7 @@ void rotation(const Analysis& analysis, std::span<double> values) {
   rotational(
       analysis, values, [&](std::int32_t node) { return entry(analysis.current.rotation, node); },
       [&](std::int32_t body) { return analysis.current.rigid_bodies[body].rotation; });
+  add_joint_angles(analysis, values);
 }
 
 void angular_velocity(const Analysis& analysis, std::span<double> values) {
@@ -143,6 +145,7 @@ void angular_velocity(const Analysis& analysis, std::span<double> values) {
         return spin_now(analysis, analysis.current.rigid_bodies[body].angular_velocity,
                         analysis.body_angular_acceleration[body]);
       });
+  add_joint_rates(analysis, values);
 }
 
 void angular_acceleration(const Analysis& analysis, std::span<double> values) {
@@ -158,6 +161,7 @@ void reaction_moment(const Analysis& analysis, std::span<double> values) {
         const auto& six = analysis.body_reaction[body];
         return {six[3], six[4], six[5]};
       });
+  add_joint_reactions(analysis, values);
 }
 
 /// A scalar of the contact points; where a node is in several pairs the largest counts.

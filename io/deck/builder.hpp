@@ -160,7 +160,18 @@ class Builder {
   std::map<std::string, std::vector<std::string>> distribution_tables;
   Names distributions{"distribution", {}};  // rows of:
   std::vector<Distribution> distribution;
-  std::map<std::int32_t, std::string> joint_angles;      // nodes whose freedom 6 Abaqus makes the angle of an *MPC of that type
+  /// Rotations about `along` of a joint's second node, which it holds if the node turns; hold_rotations() finds out.
+  struct HeldRotation {
+    std::int32_t joint = -1;  // row of Model::constraints
+    std::array<bool, 3> along{true, true, true};
+  };
+  std::vector<HeldRotation> held_rotations;
+  struct JointAngle {
+    std::int32_t guide = -1;  // row of Model::constraints
+    int row = 0;              // of it
+  };
+  std::map<std::int32_t, JointAngle> joint_angles;       // nodes whose freedom 6 is the angle of an *MPC REVOLUTE or UNIVERSAL
+  std::vector<ConnectorMotion> initial_angles;           // *BOUNDARY on them before the first step
   Guide::Friction* connector_friction = nullptr;         // the last, until a *SURFACE INTERACTION: what *FRICTION speaks of
   std::map<std::string, std::vector<std::array<double, 6>>> derived_components;  // of the last behavior: Guide::Friction::terms
 };

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "constraints/nodal_directions.hpp"
+#include "deck/joint_angles.hpp"
 #include "deck/load_magnitude.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
@@ -135,7 +136,7 @@ std::vector<Actuated> read_actuated(Builder& builder, const Block& block, Row& r
 
 void read_motion(Builder& builder, const Block& block) {
   auto& motions = current_step(builder).connector_motions;
-  if (block.value("OP") == "NEW") std::erase_if(motions, [](const auto& motion) { return motion.course.propagated; });
+  if (block.value("OP") == "NEW") std::erase_if(motions, [&](const auto& motion) { return motion.course.propagated && !is_of_angle(builder.model, motion); });
   const auto amplitude = amplitude_of(builder, block);
   if (!amplitude) return;
   for (const auto& line : block.lines) {
@@ -164,7 +165,7 @@ void read_motion(Builder& builder, const Block& block) {
 
 void read_load(Builder& builder, const Block& block) {
   auto& loads = current_step(builder).connector_loads;
-  if (block.value("OP") == "NEW") take_away(builder, loads);
+  if (block.value("OP") == "NEW") take_away(builder, loads, [&](const auto& load) { return !is_of_angle(builder.model, load); });
   const auto amplitude = amplitude_of(builder, block);
   if (!amplitude) return;
   for (const auto& line : block.lines) {

@@ -12,7 +12,6 @@
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/surface_nodes.hpp"
-#include "elements/turning_nodes.hpp"
 
 namespace balocco::deck {
 
@@ -110,14 +109,14 @@ std::optional<std::array<bool, 6>> read_freedoms(Builder& builder, const Block& 
 }
 
 void add_kinematic(Builder& builder, const Cloud& cloud, const std::array<bool, 6>& freedoms, const char* keyword, Location location) {
-  const auto turns = turning_nodes(builder.model);
   for (const auto node : cloud.nodes) {
     const auto axes = cloud.axes_at(builder.model.nodes.coordinates[node]);
     Joint joint{.nodes = {cloud.reference, node}, .pieces = {}, .axes = axes, .second_axes = axes};
     const std::array translations{freedoms[0], freedoms[1], freedoms[2]}, rotations{freedoms[3], freedoms[4], freedoms[5]};
     if (std::ranges::count(translations, true) > 0) joint.pieces.push_back({Joint::Part::offset, translations});
-    if (turns[node] && std::ranges::count(rotations, true) > 0) joint.pieces.push_back({Joint::Part::align, rotations});
-    if (!joint.pieces.empty()) builder.model.constraints.push_back({std::move(joint), keyword, location.file, location.line});
+    if (std::ranges::count(rotations, true) > 0)
+      builder.held_rotations.push_back({static_cast<std::int32_t>(builder.model.constraints.size()), rotations});
+    builder.model.constraints.push_back({std::move(joint), keyword, location.file, location.line});
   }
 }
 

@@ -212,7 +212,8 @@ std::optional<Point> direction_of(const Builder& builder, std::int32_t from, std
 }
 
 /// REVOLUTE a, b, c and UNIVERSAL a, b, c, d: a turns against b about the line from b to c, which b carries along; and then about that
-/// from b to d, which a carries along. Displacements are free. Source: Abaqus Analysis User's Guide, "General multi-point constraints".
+/// from b to d, which a carries along. Displacements are free. Freedom 6 of c (and d) is the angle. Source: Abaqus Analysis User's
+/// Guide, "General multi-point constraints".
 void read_turning_joint(Builder& builder, const Block& block, Row& row, const std::string& type, const std::vector<bool>& turns) {
   const bool universal = type == "UNIVERSAL";
   const std::size_t count = universal ? 4 : 3;
@@ -229,8 +230,8 @@ void read_turning_joint(Builder& builder, const Block& block, Row& row, const st
         return row.error(fmt::format("node {} shows an axis, and its degree of freedom 6 would be the angle: take a node of no element", name(i)));
     } else if (joined) {
       return row.error(fmt::format("node {} does not turn; join nodes of shells, beams and ROTARYI elements or reference nodes of rigid bodies", name(i)));
-    } else {
-      builder.joint_angles[nodes[i]] = type;
+    } else if (builder.joint_angles.contains(nodes[i])) {
+      return row.error(fmt::format("node {} shows the angle of another joint; give each angle a node of its own", name(i)));
     }
   }
   const auto first = direction_of(builder, nodes[1], nodes[2]), second = universal ? direction_of(builder, nodes[1], nodes[3]) : std::nullopt;
@@ -248,6 +249,14 @@ void read_turning_joint(Builder& builder, const Block& block, Row& row, const st
                        .axes = axes,
                        .second_axes = axes},
                  "*MPC", row.location());
+  // Cardan angles from b to a: the first, and of a universal joint the third.
+  Guide guide{.nodes = {nodes[1], nodes[0]}, .axes = axes, .second_axes = axes, .kind = {.rotation = RelativeMotionKind::Rotation::cardan}};
+  for (std::size_t i = 2; i < count; ++i) {
+    guide.rows.push_back({.component = i == 2 ? 3 : 5, .angle_node = nodes[i]});
+    builder.joint_angles[nodes[i]] = {static_cast<std::int32_t>(builder.model.constraints.size()), static_cast<int>(i) - 2};
+  }
+  guide.joint = static_cast<std::int32_t>(builder.model.constraints.size()) - 1;
+  add_constraint(builder, std::move(guide), "*MPC " + type, row.location());
 }
 
 /// MEANROT: a, a, a, b, b, b ... c: the mean angle by which nodes a, b ... turn about the direction that the coordinates of c say
@@ -328,14 +337,9 @@ void read_mpc(Builder& builder, const Block& block) {
         add_equal(builder, first, second, type == "TIE" && turns[first] && turns[second] ? 6 : 3, line.location);
         continue;
       }
-      Joint joint{.nodes = {second, first}, .pieces = {}};
-      if (type == "LINK")
-        joint.pieces = {{.part = Joint::Part::distance}};
-      else if (turns[first])
-        joint.pieces = {{.part = Joint::Part::offset}, {.part = Joint::Part::align}};
-      else
-        joint.pieces = {{.part = Joint::Part::offset}};
-      add_constraint(builder, std::move(joint), "*MPC", line.location);
+      const auto part = type == "LINK" ? Joint::Part::distance : Joint::Part::offset;
+      if (type == "BEAM") builder.held_rotations.push_back({.joint = static_cast<std::int32_t>(builder.model.constraints.size())});
+      add_constraint(builder, Joint{.nodes = {second, first}, .pieces = {{.part = part}}}, "*MPC", line.location);
     }
   }
 }

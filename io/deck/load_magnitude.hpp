@@ -21,14 +21,19 @@ inline double scaled(const Builder& builder, std::int32_t amplitude, double magn
   return builder.absolute_amplitudes.contains(amplitude) ? 1.0 : magnitude;
 }
 
-/// OP=NEW: loads of earlier steps go to zero, in a static step gradually, as in Abaqus.
-template <class Loads>
-void take_away(const Builder& builder, Loads& loads) {
+/// OP=NEW: loads of earlier steps, those that the keyword `speaks_of`, go to zero, in a static step gradually, as in Abaqus.
+template <class Loads, class Choice>
+void take_away(const Builder& builder, Loads& loads, Choice speaks_of) {
   for (auto& load : loads) {
-    if (builder.draft.said_here(load)) continue;
+    if (builder.draft.said_here(load) || !speaks_of(load)) continue;
     load.magnitude = 0.0;
     load.amplitude = -1;
   }
+}
+
+template <class Loads>
+void take_away(const Builder& builder, Loads& loads) {
+  take_away(builder, loads, [](const auto&) { return true; });
 }
 
 }  // namespace balocco::deck

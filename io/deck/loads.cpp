@@ -5,6 +5,7 @@
 #include <map>
 
 #include "deck/builder.hpp"
+#include "deck/joint_angles.hpp"
 #include "deck/load_magnitude.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
@@ -98,22 +99,15 @@ void renew_boundary(Builder& builder, const Block& block) {
   builder.draft.boundary_of.clear();
   auto& boundary = current_step(builder).boundary;
   const bool first_step = builder.model.steps.size() == 1;
+  std::erase_if(current_step(builder).connector_motions, [&](const ConnectorMotion& motion) {
+    return (motion.course.propagated || first_step) && is_of_angle(builder.model, motion);
+  });
   std::erase_if(boundary, [&](const BoundaryCondition& c) {
     return (c.propagated || first_step) && !builder.ground_nodes.contains(c.node);
   });
   for (std::size_t row = 0; row < boundary.size(); ++row) {
     builder.draft.boundary_of[std::int64_t{boundary[row].node} * 6 + boundary[row].dof] = row;
   }
-}
-
-/// Whether Abaqus makes that freedom the angle of a joint; told.
-bool is_angle_of_joint(const Builder& builder, std::int32_t node, int dof, Row& row) {
-  const auto joint = builder.joint_angles.find(node);
-  if (dof != 5 || joint == builder.joint_angles.end()) return false;
-  row.error(fmt::format("degree of freedom 6 of node {} is the angle of an *MPC {}, which cannot be driven or loaded here; put a CONN3D2 with "
-                        "*CONNECTOR SECTION {} in its place, and *CONNECTOR MOTION or *CONNECTOR LOAD",
-                        builder.model.node_name(node), joint->second, joint->second));
-  return true;
 }
 
 void read_boundary_line(Builder& builder, const Block& block, Row& row, BoundaryCondition condition,
@@ -132,7 +126,7 @@ void read_boundary_line(Builder& builder, const Block& block, Row& row, Boundary
   condition.line = row.location().line;
   for (const auto node : nodes) {
     for (const int dof : freedoms->dofs) {
-      if (is_angle_of_joint(builder, node, dof, row)) return;
+      if (prescribes_angle(builder, node, dof, condition)) continue;
       if (dof >= 3 && !rotations.has(node)) {
         if (!freedoms->named && freedoms->magnitude != 0.0) {
           return row.error(fmt::format(
@@ -181,6 +175,7 @@ void read_concentrated(Builder& builder, const Block& block) {
   auto& index = builder.draft.concentrated_of;
   if (block.value("OP") == "NEW" && !builder.draft.concentrated_renewed) {
     take_away(builder, loads);
+    take_away(builder, current_step(builder).connector_loads, [&](const ConnectorLoad& load) { return is_of_angle(builder.model, load); });
     builder.draft.concentrated_renewed = true;
   }
   const auto amplitude = amplitude_of(builder, block);
@@ -197,7 +192,9 @@ void read_concentrated(Builder& builder, const Block& block) {
       row.error(fmt::format("degree of freedom {} does not exist; give 1 to 6", dof));
     if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, nodes)) continue;
     for (const auto node : nodes) {
-      if (is_angle_of_joint(builder, node, static_cast<int>(dof) - 1, row)) break;
+      const ConcentratedLoad said{.node = node, .magnitude = scaled(builder, *amplitude, magnitude), .amplitude = *amplitude,
+                                  .file = line.location.file, .line = line.location.line};
+      if (!follower && loads_angle(builder, node, static_cast<int>(dof) - 1, said)) continue;
       if (follower && !rotations.has(node)) {
         row.error(fmt::format("node {} does not turn, so that nothing says where a force that follows it points; nodes of shells, beams and "
                               "ROTARYI elements and reference nodes of rigid bodies turn; elsewhere leave FOLLOWER out",

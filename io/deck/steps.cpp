@@ -36,6 +36,7 @@ void inherit(Builder& builder, Step& step) {
   const auto general = model.general_step_before(row);
   if (general < 0) {
     step.boundary = builder.initial_boundary;
+    step.connector_motions = builder.initial_angles;
     hold_ground_nodes(builder, step);
     step.checkpoint_frequency = builder.checkpoint_frequency;
     step.checkpoint_number_interval = builder.checkpoint_number_interval;

@@ -44,7 +44,12 @@ struct NodesOf {
     return nodes;
   }
   std::vector<std::int32_t> operator()(const Joint& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
-  std::vector<std::int32_t> operator()(const Guide& kind) const { return {kind.nodes.begin(), kind.nodes.end()}; }
+  std::vector<std::int32_t> operator()(const Guide& kind) const {
+    std::vector<std::int32_t> nodes(kind.nodes.begin(), kind.nodes.end());
+    for (const auto& row : kind.rows)
+      if (row.angle_node >= 0) nodes.push_back(row.angle_node);  // its owner tells the angle
+    return nodes;
+  }
   std::vector<std::int32_t> operator()(const Tie& kind) const {
     std::vector<std::int32_t> nodes = kind.others;
     nodes.push_back(kind.node);

@@ -68,6 +68,7 @@ struct Guide {
     Range lock = everywhere;  // beyond it the connector locks
     bool locks_all = true;    // all rows, or this one alone
     std::optional<Friction> friction;
+    std::int32_t angle_node = -1;  // whose rotation about the third direction shows an angle (*MPC REVOLUTE, UNIVERSAL)
   };
   std::array<std::int32_t, 2> nodes{-1, -1};
   std::array<std::array<double, 3>, 3> axes{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}}, second_axes = axes;  // as of Joint
