@@ -200,5 +200,77 @@ def sheets_thrown(run):
     check("the same bits on two ranks", float(same), 1.0, 0.0)
 
 
+def stack_deck(kind, steps):
+    """Three square sheets on top of each other and four welds: connectors from sheet to sheet, with a third one that closes each to a
+    ring, or nodes that hold all sheets. Sets: BOTTOM, TOP, all nodes of these sheets; LOADED, one node of the top sheet."""
+    side, n, height = 30.0, 6, 1.0
+    nodes, shells = [], []
+    for sheet in range(3):
+        at = lambda i, j: 100 * sheet + 7 * i + j + 1
+        nodes.append([f"{at(i, j)}, {side * i / n!r}, {side * j / n!r}, {height * sheet}" for i in range(n + 1) for j in range(n + 1)])
+        shells.append([f"{at(i, j)}, {at(i, j)}, {at(i + 1, j)}, {at(i + 1, j + 1)}, {at(i, j + 1)}" for i in range(n) for j in range(n)])
+    ends, upper, lower, across = [], [], [], []
+    for weld, (x, y) in enumerate(((7.0, 8.0), (23.0, 6.0), (22.0, 24.0), (8.0, 22.0))):
+        first = 400 + 10 * weld
+        ends += [f"{first + sheet}, {x}, {y}, {height * sheet}" for sheet in range(3)]
+        upper.append(f"{1000 + weld}, {first + 2}, {first + 1}")
+        lower.append(f"{1010 + weld}, {first + 1}, {first}")
+        across.append(f"{1020 + weld}, {first + 2}, {first}")
+    connectors = ["*ELEMENT, TYPE=CONN3D2, ELSET=UPPER", *upper, "*ELEMENT, TYPE=CONN3D2, ELSET=LOWER", *lower]
+    if kind == "rings":
+        connectors += ["*ELEMENT, TYPE=CONN3D2, ELSET=ACROSS", *across]
+    names = "UPPER, LOWER, ACROSS" if kind == "rings" else "UPPER, LOWER"
+    if kind == "nodes":
+        ends = [end for end in ends if end.endswith(f", {height}")]
+        welds = ["*NSET, NSET=SPOTS", "401, 411, 421, 431", "*FASTENER, PROPERTY=SPOT, REFERENCE NODE SET=SPOTS"]
+    else:
+        welds = [*connectors, f"*ELSET, ELSET=WELDS\n{names}", "*CONNECTOR SECTION, ELSET=WELDS\nBEAM", "*FASTENER, PROPERTY=SPOT, ELSET=WELDS"]
+    return "\n".join([*[f"*NODE, NSET={name}\n" + "\n".join(these) for name, these in zip(("BOTTOM", "MIDDLE", "TOP"), nodes)], "*NODE, NSET=ENDS", *ends,
+                      *[f"*ELEMENT, TYPE=S4R, ELSET=SHEET{i}\n" + "\n".join(these) for i, these in enumerate(shells)],
+                      *[f"*SURFACE, NAME=FACE{i}\nSHEET{i}, SPOS" for i in range(3)], "*FASTENER PROPERTY, NAME=SPOT\n3.", *welds, "FACE0, FACE1, FACE2",
+                      "*ELSET, ELSET=SHEETS\nSHEET0, SHEET1, SHEET2", "*NSET, NSET=LOADED\n225", "*NSET, NSET=SHOWN\nBOTTOM, MIDDLE, TOP",
+                      "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e3, 0.3\n*DENSITY\n7.85e-3", "*SHELL SECTION, ELSET=SHEETS, MATERIAL=STEEL\n0.8", steps])
+
+
+def stacked_sheets(run):
+    """Welds through three sheets: what pulls the top one passes through every gap between sheets, in statics and in time; a ring of three
+    connectors in each weld, whose conditions follow from each other, moves as two of them do."""
+    load = np.array([30.0, -20.0, 10.0])
+    pull = "*CLOAD\n" + "".join(f"225, {c + 1}, {load[c]}\n" for c in range(3))
+    sets = {"chains": ("UPPER", "LOWER"), "rings": ("UPPER", "LOWER", "ACROSS"), "nodes": ()}
+    first = {"UPPER": 1000, "LOWER": 1010, "ACROSS": 1020}
+    shown = lambda kind: "".join(f"*ELEMENT OUTPUT, ELSET={name}\nCTF\n" for name in sets[kind])
+    through = lambda job, *names: sum(job.history(f"element_{first[name] + weld}", "CTF")[1][:, :3] for name in names for weld in range(4))
+    for kind in sets:
+        gaps = {"chains": (("UPPER",), ("LOWER",)), "rings": (("UPPER", "ACROSS"), ("LOWER", "ACROSS")), "nodes": ()}[kind]
+        static = ("*STEP\n*STATIC\n1., 1.\n*BOUNDARY\nBOTTOM, 1, 6\n" + pull + "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=SHOWN\nU, RF\n"
+                  + shown(kind) + "*END STEP\n")
+        ways = {}
+        for ranks in (1, 2):
+            job = run(stack_deck(kind, static), ranks)
+            check(f"{kind}: forces of the support", np.abs(sum(job.history(f"node_{node}", "RF")[1][-1] for node in range(1, 50)) + load).max(), 0.0, 1e-8)
+            for gap in gaps:
+                check(f"{kind}: what {' and '.join(gap)} bear", np.abs(through(job, *gap)[-1] + load).max(), 0.0, 1e-8)
+            ways[ranks] = job.history("node_225", "U")[1][-1]
+        if kind == "chains":
+            expected = ways[1]
+        if kind == "rings":
+            check("rings: as chains", np.abs(ways[2] - expected).max() / np.abs(expected).max(), 0.0, 1e-8)
+        output = "*OUTPUT, HISTORY, TIME INTERVAL=0.01\n*NODE OUTPUT, NSET=SHOWN\nU, A\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ETOTAL\n"
+        jobs = [run(stack_deck(kind, explicit_step(2e-4, 0.05, pull, output + shown(kind))), ranks) for ranks in ((1, 2, 3) if kind == "rings" else (1, 2))]
+        for other in jobs[1:]:
+            same = all(np.array_equal(other.history(f"node_{node}", "U")[1], jobs[0].history(f"node_{node}", "U")[1]) for node in (1, 101, 225, 249))
+            check(f"{kind}: the same bits", float(same), 1.0, 0.0)
+        share = lambda node: 7.85e-3 * 0.8 * 25.0 * (0.5 if (node % 100 - 1) // 7 in (0, 6) else 1.0) * (0.5 if (node % 100 - 1) % 7 in (0, 6) else 1.0)
+        pushed = lambda sheets: sum(share(100 * sheet + i) * jobs[0].history(f"node_{100 * sheet + i}", "A")[1] for sheet in sheets for i in range(1, 50))
+        check(f"{kind}: all of it", np.abs(pushed((0, 1, 2))[1:] - load).max() / np.abs(load).max(), 0.0, 1e-6)
+        for gap, sheets in zip(gaps, ((0, 1), (0,))):  # connectors tell forces in axes that turn with the sheets, by 1e-4 here
+            beyond = pushed(sheets)[1:]
+            check(f"{kind}: what {' and '.join(gap)} bear in time", np.abs(through(jobs[0], *gap)[1:] + beyond).max() / np.abs(beyond).max(), 0.0, 1e-3)
+        check_energy(jobs[0], 1e-3)
+        if kind == "rings":
+            check("conditions that follow from others are told", float("from other constraints" in jobs[0].log()), 1.0, 0.0)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (closed_section, tied_sheets, tumbling_star, sheets_thrown)})
+    run_case({case.__name__: case for case in (closed_section, tied_sheets, tumbling_star, sheets_thrown, stacked_sheets)})
