@@ -16,6 +16,7 @@
 #include "math/rotation.hpp"
 #include "model/check_constraints.hpp"
 #include "model/diagnostics.hpp"
+#include "model/rigid_constraints.hpp"
 
 namespace balocco {
 
@@ -306,7 +307,7 @@ void Analysis::index_rigid_nodes() {
 }
 
 /// An element all whose nodes move, and turn if they do, with one rigid body cannot strain: it rests. One that holds a single node
-/// strains against the ground. What is out of the model or has failed rests too.
+/// strains against the ground, and a spring in a direction that does not turn strains in a body that does. What is out of the model or has failed rests too.
 void Analysis::find_acting_elements() {
   const ElementFailures failures(element_groups);
   for (std::size_t index = 0; index < element_groups.size(); ++index) {
@@ -320,7 +321,8 @@ void Analysis::find_acting_elements() {
     for (std::int32_t element = 0; element < group->size(); ++element) {
       const auto nodes = group->nodes(element);
       const auto body = body_of(nodes[0]);
-      const bool strains = body < 0 || nodes.size() == 1 ||
+      const auto& table = model.elements[group->table()];
+      const bool strains = body < 0 || nodes.size() == 1 || strains_in_bodies(model.sections[table.section[group->row(element)]]) ||
                            !std::all_of(nodes.begin(), nodes.end(), [&](std::int32_t node) { return body_of(node) == body; });
       acting[element] = strains && takes_part(*group, element) && !failures.failed(index, element, current.element_history[index]);
     }

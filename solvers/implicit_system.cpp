@@ -7,6 +7,7 @@
 #include "elements/element_type.hpp"
 #include "math/rotation.hpp"
 #include "model/bounding_box.hpp"
+#include "model/rigid_constraints.hpp"
 
 namespace balocco {
 
@@ -92,12 +93,14 @@ std::span<const NodeMotion> ImplicitSystem::motions_of(const ElementGroup& group
   return motions_;
 }
 
-/// An element that holds a single node strains against the ground.
+/// But see Analysis::find_acting_elements().
 bool ImplicitSystem::moves_as_one(const ElementGroup& group, std::int32_t element) const {
   const auto nodes = group.nodes(element);
   const auto body = analysis_.carrier(nodes[0]);
   const bool turns = group.freedoms_per_node() == 6;
-  return body >= 0 && nodes.size() > 1 && std::ranges::all_of(nodes, [&](std::int32_t node) {
+  const auto& table = analysis_.model.elements[group.table()];
+  if (body < 0 || nodes.size() == 1 || strains_in_bodies(analysis_.model.sections[table.section[group.row(element)]])) return false;
+  return std::ranges::all_of(nodes, [&](std::int32_t node) {
            return analysis_.carrier(node) == body && (!turns || analysis_.turning_body(node) == body);
          });
 }

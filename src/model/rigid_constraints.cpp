@@ -144,6 +144,10 @@ std::vector<std::int32_t> lasting_bodies(const Model& model) {
   return body_of;
 }
 
+bool strains_in_bodies(const Section& section) {
+  return (section.kind == Section::Kind::spring || section.kind == Section::Kind::dashpot) && section.spring.freedom[0] >= 0;
+}
+
 bool rests_for_good(std::span<const std::int32_t> nodes, const std::vector<std::int32_t>& body_of) {
   const auto body = body_of[nodes.front()];
   return body >= 0 && nodes.size() > 1 && std::ranges::all_of(nodes, [&](std::int32_t node) { return body_of[node] == body; });

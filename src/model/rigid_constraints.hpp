@@ -12,6 +12,8 @@ namespace balocco {
 
 /// Body of each node of the model that is its reference node or tied to it from the start to the end; -1: none.
 std::vector<std::int32_t> lasting_bodies(const Model& model);
+/// Springs and dashpots in directions that do not turn, unlike those along the line between their nodes, strain even in a rigid body.
+bool strains_in_bodies(const Section& section);
 /// Whether an element of these nodes moves with one of them for good: it cannot strain and is not computed.
 bool rests_for_good(std::span<const std::int32_t> nodes, const std::vector<std::int32_t>& body_of);
 

@@ -5,6 +5,7 @@ import math
 import numpy as np
 
 from explicit_cases import check, check_energy, run_case
+from motion_decks import explicit_step, integrate
 
 HISTORY = """*OUTPUT, HISTORY, FREQUENCY=1
 *NODE OUTPUT, NSET=MASSES
@@ -275,6 +276,52 @@ def beside_elements(run):
         check_energy(job, 1e-2)
         one, two = (job.history("node_5", "U1")[1], run(rods(restraint, mass), 2).history("node_5", "U1")[1])
         check("one rank and two find the same bits", float(np.array_equal(one, two)), 1.0, 0.0)
+
+
+def springs_in_a_body(run):
+    """Springs in fixed directions at nodes of a rigid body that turns about its reference node, to the ground and within the body:
+    2 k sin a cos a balances a moment, and makes the body swing."""
+    stiffness, inertia = 100.0, 0.5
+    speed = 0.8 * math.sqrt(2.0 * stiffness / inertia)  # does not turn it over
+    body = f"""*NODE
+1, 0., 0., 0.
+2, 1., 0., 0.
+*NSET, NSET=TIP
+2
+*RIGID BODY, REF NODE=1, TIE NSET=TIP
+*ELEMENT, TYPE=ROTARYI, ELSET=I
+3, 1
+*ROTARY INERTIA, ELSET=I
+{inertia}, {inertia}, {inertia}
+*ELEMENT, TYPE=MASS, ELSET=M
+4, 1
+*MASS, ELSET=M
+1.
+*ELEMENT, TYPE=SPRING1, ELSET=GROUND
+5, 2
+*SPRING, ELSET=GROUND
+2
+{stiffness}
+*ELEMENT, TYPE=SPRING2, ELSET=WITHIN
+6, 1, 2
+*SPRING, ELSET=WITHIN
+2, 2
+{stiffness}
+*BOUNDARY
+1, 1, 5
+"""
+    output = "*OUTPUT, HISTORY, {}\n*NODE OUTPUT, NSET=TIP\nU1, U2\n*ENERGY OUTPUT\nALLKE, ALLIE, ALLWK, ETOTAL\n"
+    moment = lambda a: 2.0 * stiffness * math.sin(a) * math.cos(a)
+    swing = lambda x: np.array([x[1], -moment(x[0]) / inertia])
+    for ranks in (1, 2):
+        job = run(body + f"*STEP, NLGEOM\n*STATIC\n0.1, 1.\n*CLOAD\n1, 6, {moment(0.3)!r}\n" + output.format("FREQUENCY=1") + "*END STEP\n", ranks)
+        check("way of the tip in statics", job.history("node_2", "U2")[1][-1], math.sin(0.3), 1e-8)
+        job = run(body + f"*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\n1, {speed!r}\n0., 0., 0., 0., 0., 1.\n"
+                  + explicit_step(1e-4, 1.0, "", output.format("TIME INTERVAL=0.01")), ranks)
+        time, u = job.history("node_2", "U2")
+        angle = integrate(swing, [0.0, speed], time)[:, 0]
+        check("way of the tip in time", np.abs(u - np.sin(angle)).max(), 0.0, 1e-5)
+        check_energy(job, 1e-4)
 
 
 if __name__ == "__main__":
