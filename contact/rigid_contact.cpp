@@ -186,6 +186,15 @@ ContactTangent RigidContact::linearize(std::int32_t point, const double* positio
   return tangent;
 }
 
+void RigidContact::lower_multipliers(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points) const {
+  const MasterFrame frame(master);
+  for (std::int32_t i = 0; i < size(); ++i) {
+    if (!(points[i].multiplier > 0.0)) continue;
+    const double gap = surface_.nearest(frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]))).distance;
+    points[i].multiplier = std::max(0.0, points[i].multiplier - parameters(i, points[i]).stiffness * std::max(0.0, gap));
+  }
+}
+
 double RigidContact::augment(const double* position, const RigidBodyState& master,
                              std::vector<ContactPoint>& points) const {
   const MasterFrame frame(master);

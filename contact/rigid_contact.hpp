@@ -115,6 +115,8 @@ class RigidContact {
   /// the history at the start of the increment that is being solved. @return greatest gap or penetration of a closed
   /// point on this rank before the update.
   double augment(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points) const;
+  /// Takes from the multipliers what pushes across a gap.
+  void lower_multipliers(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points) const;
 
   /// Gap, pressure and tangential traction of a point, and its forces (global directions, on the slave), for output.
   /// The energy is what both springs hold. A point that `state` says is open has no force, wherever it is: its pair may

@@ -34,11 +34,11 @@ constexpr Point unit(int axis) {
 
 }  // namespace
 
-AlphaMethod::AlphaMethod(Analysis& analysis, const ImplicitDofMap& map, double alpha)
+AlphaMethod::AlphaMethod(Analysis& analysis, const ImplicitDofMap& map, double alpha, bool contact)
     : analysis_(analysis),
       map_(map),
       alpha_(alpha),
-      beta_(0.25 * (1.0 - alpha) * (1.0 - alpha)),
+      beta_(contact ? 0.5 * (0.5 - alpha) : 0.25 * (1.0 - alpha) * (1.0 - alpha)),
       gamma_(0.5 - alpha),
       old_forces_(static_cast<std::size_t>(map.slots())),
       body_(analysis.current.rigid_bodies.size()),

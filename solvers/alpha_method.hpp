@@ -20,7 +20,8 @@ namespace balocco {
 
 class AlphaMethod {
  public:
-  AlphaMethod(Analysis& analysis, const ImplicitDofMap& map, double alpha);
+  /// With contact beta is gamma / 2, less damped by a hair than Hilber's (1 - alpha)^2 / 4: so what rests on a surface stays at rest.
+  AlphaMethod(Analysis& analysis, const ImplicitDofMap& map, double alpha, bool contact);
 
   /// What is computed from now on: a step of the method over `increment` from `start`, or the forces of an instant that nothing has
   /// moved from, with accelerations of zero, and a matrix M + tiny K that finds the true ones.
@@ -33,6 +34,10 @@ class AlphaMethod {
   double weight() const { return weight_; }
   double old_weight() const { return old_weight_; }
   double tangent_weight() const { return tangent_weight_; }
+  /// Those of contact, which acts over the whole increment as it is at its end (Kane, Repetto, Ortiz and Marsden, Comput. Methods Appl.
+  /// Mech. Engrg. 180, 1999): it takes energy from an impact and never gives any. Accelerations that it causes are not gone on from.
+  double contact_weight() const { return 1.0 / gamma_; }
+  double contact_tangent_weight() const { return finds_accelerations() ? tangent_weight_ : contact_weight(); }
   /// Whether the matrix is of accelerations, not of motions, which change where forces act.
   bool finds_accelerations() const { return velocity_tangent_ == 0.0; }
   /// f(n) in the slots' directions.

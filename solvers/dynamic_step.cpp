@@ -34,6 +34,7 @@ class DynamicStep : public ImplicitStep {
   AlphaMethod& method() { return *system_.dynamics(); }
 
   std::vector<double> prediction_;
+  std::int64_t freed_increment_ = -1;  // whose accelerations are those without contact
 };
 
 /// The instant of a step before which nothing has moved in this run: one taken up goes on with the motion of the state.
@@ -198,6 +199,10 @@ void DynamicStep::add_convective_gaps(std::vector<double>& gaps) {
 }
 
 NewtonResult DynamicStep::attempt(double time_increment) {
+  if (freed_increment_ != analysis_.current.increment && system_.starts_in_contact()) {
+    find_accelerations();  // without those that contact causes
+    freed_increment_ = analysis_.current.increment;
+  }
   method().advance(system_.start_of_increment(), time_increment);
   prediction_ = method().prediction();
   return solve(goal_of(time_increment));
@@ -213,7 +218,10 @@ void DynamicStep::find_reactions(std::span<const double> forces) {
 void DynamicStep::conclude(const IncrementGoal& goal) {
   const auto forces = follows_geometry() ? system_.forces() : find_forces(goal.step_time, goal.total_time);
   method().follow();
-  find_reactions(forces);
+  auto with_contact = forces;
+  if (follows_geometry())
+    for (std::size_t slot = 0; slot < forces.size(); ++slot) with_contact[slot] += system_.contact_forces()[slot];
+  find_reactions(with_contact);
   add_work(goal);
   store_reactions();
   method().commit(forces);

@@ -52,7 +52,9 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   add_pressure_stiffness(request);
   add_body_load_stiffness(request);
   add_follower_stiffness(request);
+  if (dynamics_ && request.inertia) stiffness_.set_weight(dynamics_->contact_tangent_weight());
   add_contact(request.contact_sticks);
+  if (dynamics_ && request.inertia) stiffness_.set_weight(dynamics_->tangent_weight());
   guides_.aim(analysis_, request.step_time, request.total_time, request.initial_loads);
   add_constraints();
   add_stabilization(request);
@@ -74,9 +76,13 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   return everywhere_sound(sound);
 }
 
-/// Damping came with the forces; what is left are their weights, and inertia.
+/// Damping came with the forces; what is left are their weights, contact, and inertia.
 void ImplicitSystem::add_dynamics(const AssemblyRequest& request) {
   forces_ = residual_;
+  stiffness_.set_weight(request.inertia ? dynamics_->contact_tangent_weight() : 0.0);
+  exchange_.sum(contact_force_);
+  gather_at_bodies(contact_force_, request.arms_turn);
+  turn_into_slot_directions(contact_force_);
   inertia_.assign(residual_.size(), 0.0);
   stiffness_.set_weight(request.inertia ? 1.0 : 0.0);
   dynamics_->add_inertia(&stiffness_, inertia_);
@@ -91,7 +97,8 @@ void ImplicitSystem::add_dynamics(const AssemblyRequest& request) {
   turn_into_slot_directions(inertia_);
   if (!request.inertia) return;
   for (std::int32_t slot = 0; slot < map_.slots(); ++slot)
-    residual_[slot] = dynamics_->weight() * forces_[slot] + dynamics_->old_weight() * dynamics_->old_forces()[slot] + inertia_[slot];
+    residual_[slot] = dynamics_->weight() * forces_[slot] + dynamics_->old_weight() * dynamics_->old_forces()[slot] +
+                      dynamics_->contact_weight() * contact_force_[slot] + inertia_[slot];
 }
 
 const std::vector<double>& ImplicitSystem::find_inertia() {
@@ -230,6 +237,7 @@ void ImplicitSystem::add_follower_stiffness(const AssemblyRequest& request) {
 
 void ImplicitSystem::add_contact(bool sticks) {
   const auto closed_before = trial_contact_;
+  contact_force_.assign(residual_.size(), 0.0);
   for (const auto pair : step_.active_contact_pairs)
     for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) add_contact_point(pair, point, sticks);
   std::int64_t closed = 0, changed = 0;
@@ -259,10 +267,11 @@ void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point, bo
   for (int i = 0; i < 3; ++i) arm[i] = position[4 * node + i] - master.position[i];
   const auto moment = cross_product(arm.data(), tangent.force.data());
   // The residual is internal - external - contact; the master feels the opposite of the slave's force.
+  auto& sum = dynamics_ ? contact_force_ : residual_;
   for (int i = 0; i < 3; ++i) {
-    residual_[map_.slot(node, i)] -= tangent.force[i];
-    residual_[map_.slot(reference, i)] += tangent.force[i];
-    residual_[map_.rotation_slot(body, i)] += moment[i];
+    sum[map_.slot(node, i)] -= tangent.force[i];
+    sum[map_.slot(reference, i)] += tangent.force[i];
+    sum[map_.rotation_slot(body, i)] += moment[i];
   }
   block_.assign(81, 0.0);
   for (int column = 0; column < 9; ++column) {

@@ -331,9 +331,10 @@ void ImplicitNewton::measure_correction(double factor) {
   largest_increment_ = largest[1];
 }
 
-/// Augments the contact's multipliers where it penetrates too far, or pushes across a gap: a multiplier from a greater load.
+/// Augments the contact's multipliers where it penetrates too far, or pushes across a gap: a multiplier from a greater load. In dynamics
+/// springs alone press, whose energy has an account.
 bool ImplicitNewton::contact_misfits(const IncrementGoal& goal, const NewtonResult& result) {
-  if (!system_.has_contact() || augmentations_ >= most_augmentations) return false;
+  if (!system_.has_contact() || system_.dynamics() || augmentations_ >= most_augmentations) return false;
   const double allowed = (goal.ends_step ? penetration_tolerance : passing_penetration_tolerance) * contact_length_;
   const double misfit = system_.greatest_misfit();
   if (misfit <= allowed) return false;

@@ -23,7 +23,7 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
   for (auto slot = map_.first_multiplier(); slot < map_.slots(); ++slot)
     if (map_.role(slot) == ImplicitDofMap::Role::absent) analysis_.current.multiplier[map_.constraint_row(slot)] = 0.0;
   if (const auto* dynamic = std::get_if<DynamicProcedure>(&step.procedure))
-    dynamics_ = std::make_unique<AlphaMethod>(analysis, map_, dynamic->alpha);
+    dynamics_ = std::make_unique<AlphaMethod>(analysis, map_, dynamic->alpha, has_contact());
   find_levers();
   find_stabilizing_masses();
   guides_.begin_increment(analysis_);
@@ -276,6 +276,11 @@ void ImplicitSystem::begin_increment() {
 void ImplicitSystem::commit() {
   analysis_.current.element_history = trial_history_;
   analysis_.current.contact = trial_contact_;
+  for (const auto pair : step_.active_contact_pairs)
+    if (dynamics_)  // nothing may push across a gap: that would give energy
+      analysis_.contacts[pair].lower_multipliers(analysis_.current.position.data(),
+                                                 analysis_.current.rigid_bodies[analysis_.contacts[pair].master_body()],
+                                                 analysis_.current.contact[pair]);
   for (std::size_t group = 0; group < analysis_.element_groups.size(); ++group)
     repeat_in_padded_lanes(*analysis_.element_groups[group], analysis_.current.element_history[group]);
 }
@@ -289,6 +294,13 @@ double ImplicitSystem::greatest_misfit() const {
                                               analysis_.current.rigid_bodies[contact.master_body()], points));
   }
   return analysis_.communicator.maximum(misfit);
+}
+
+bool ImplicitSystem::starts_in_contact() const {
+  const auto closed = [](const std::vector<ContactPoint>& points) {
+    return std::ranges::any_of(points, [](const ContactPoint& point) { return point.closed > 0.0; });
+  };
+  return has_contact() && analysis_.communicator.any(std::ranges::any_of(start_contact_, closed));
 }
 
 void ImplicitSystem::augment_contact() {

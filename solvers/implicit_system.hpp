@@ -42,8 +42,10 @@ class ImplicitSystem {
   /// Internal - external - contact forces in the slots' directions, carried nodes gathered at their reference node;
   /// zero in absent slots. Stabilising forces are included.
   const std::vector<double>& residual() const { return residual_; }
-  /// The same forces as they are at the end of the increment, without weights and inertia.
+  /// The same forces as they are at the end of the increment, without weights and inertia; dynamic: without those of contact, which are
+  /// apart.
   const std::vector<double>& forces() const { return dynamics_ ? forces_ : residual_; }
+  const std::vector<double>& contact_forces() const { return contact_force_; }
   /// Loads on each node, also on carried ones, and moments on bodies, in global directions.
   const std::vector<double>& external() const { return external_; }
   /// Average magnitude of the nodal forces of the elements, over all ranks.
@@ -87,6 +89,8 @@ class ImplicitSystem {
   double greatest_misfit() const;
   /// Adds the present spring forces to the multipliers from which the increment's contact starts.
   void augment_contact();
+  /// Whether a point is closed where the increment starts. Collective.
+  bool starts_in_contact() const;
   bool has_contact() const { return !step_.active_contact_pairs.empty(); }
   /// Edge length of the area that a slave node stands for: the average of all ranks. Collective.
   double contact_length() const;
@@ -163,7 +167,7 @@ class ImplicitSystem {
   std::vector<std::vector<ContactPoint>> start_contact_, trial_contact_;
   std::unique_ptr<AlphaMethod> dynamics_;
   std::vector<double> residual_, external_, mass_, lever_;
-  std::vector<double> forces_, inertia_;  // dynamic
+  std::vector<double> forces_, contact_force_, inertia_;  // dynamic
   double model_size_ = 1.0;
   double average_force_ = 0.0;
   std::array<double, 2> force_sum_{};  // of magnitudes, and how many

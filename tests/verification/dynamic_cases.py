@@ -6,6 +6,7 @@ import sys
 import numpy as np
 
 from explicit_cases import Job, check, failures
+from explicit_contact_cases import block
 
 HISTORY = """*OUTPUT, HISTORY, FREQUENCY=1
 *NODE OUTPUT, NSET=WATCHED
@@ -108,6 +109,32 @@ def connectors(balocco, folder):
                 damped = OMEGA * math.sqrt(1.0 - ratio * ratio)
                 expected = 1e-2 * (1.0 - np.exp(-ratio * OMEGA * time) * (np.cos(damped * time) + ratio * OMEGA / damped * np.sin(damped * time)))
             check("%s on %s ranks" % (kind, ranks), np.abs(moved[:, 0] - expected).max() / np.abs(expected).max(), 0.0, 1e-2)
+
+
+def impact(balocco, folder):
+    """A block falls on the ground: no increment creates energy, finer ones lose less of it in the blow. Pressed by statics it stays at rest."""
+    deck = block(2, 3, 2, (10.0, 10.0, 10.0), "C3D8", height=0.05, law="*ELASTIC\n1000., 0.3", density=1e-9)
+    energies = "*OUTPUT, HISTORY, FREQUENCY=1\n*ENERGY OUTPUT\nALLKE, ETOTAL\n*END STEP\n"
+    lost = []
+    for ranks, increment in (("1", 2e-6), ("2", 5e-7)):
+        job = Job("impact", balocco, ranks, folder)
+        job.run(deck + "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 2, -2000.\n*STEP, NLGEOM, INC=100000\n*DYNAMIC, DIRECT\n%g, 1.6e-4\n" % increment + energies)
+        total = job.history("energy", "ETOTAL")[1]
+        check("no energy is created at %g" % increment, total.max() / total[0] - 1.0, 0.0, 1e-4)
+        lost.append(1.0 - total[-1] / total[0])
+        check("it bounces", float(job.history("energy", "ALLKE")[1][-1] > 0.4 * total[0]), 1.0, 0.0)
+    check("finer increments lose less", float(lost[1] < 0.9 * lost[0]), 1.0, 0.0)
+
+    job = Job("pressed", balocco, "1", folder)
+    push = "*DLOAD\nCAP, P4, 2.\n"
+    deck = deck.replace("*ELSET, ELSET=SOLE", "*ELSET, ELSET=CAP\n%s\n*ELSET, ELSET=SOLE" % ", ".join(str(1 + i + 2 * (2 + 3 * k)) for k in range(2) for i in range(2)))
+    deck = deck.replace("*STEP", "", 1)
+    motion = "*OUTPUT, FIELD, FREQUENCY=1, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*END STEP\n"
+    job.run(deck + "*BOUNDARY\nLOW, 1\nLOW, 3\n*STEP, NLGEOM\n*STATIC\n*BOUNDARY\nTOP, 2, 2, -0.06\n" + motion
+            + "*STEP, NLGEOM\n*STATIC\n*BOUNDARY, OP=NEW\n9000, 1, 6\nLOW, 1\nLOW, 3\n" + push + motion
+            + "*STEP, NLGEOM\n*DYNAMIC, DIRECT\n1e-5, 2e-4\n" + motion)
+    still = job.frame("U", -1, 2)
+    check("a pressed block stays at rest", np.abs(job.frame("U", -1, 3) - still).max() / np.abs(still).max(), 0.0, 1e-6)
 
 
 BAR = """*NODE
@@ -300,7 +327,7 @@ U, UR
 
 
 CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body, modal_response,
-                                            growing_increments, lone_masses, stopped_and_resumed, connectors)}
+                                            growing_increments, lone_masses, stopped_and_resumed, connectors, impact)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](*sys.argv[2:])
