@@ -63,8 +63,8 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   exchange_.sum(external_);
   for (std::size_t slot = 0; slot < residual_.size(); ++slot) residual_[slot] -= external_[slot];
   // A linear step keeps the arms of bodies as they were.
-  if (dynamics_ && analysis_.current.linear) stiffness_.set_weight(0.0);
-  gather_at_bodies(residual_, request.arms_turn);
+  if (!request.arms_turn || (dynamics_ && analysis_.current.linear)) stiffness_.set_weight(0.0);
+  gather_at_bodies(residual_);
   if (!dynamics_) add_half_residual_turns();
   turn_into_slot_directions(residual_);
   if (dynamics_) add_dynamics(request);
@@ -81,7 +81,7 @@ void ImplicitSystem::add_dynamics(const AssemblyRequest& request) {
   forces_ = residual_;
   stiffness_.set_weight(request.inertia ? dynamics_->contact_tangent_weight() : 0.0);
   exchange_.sum(contact_force_);
-  gather_at_bodies(contact_force_, request.arms_turn);
+  gather_at_bodies(contact_force_);
   turn_into_slot_directions(contact_force_);
   inertia_.assign(residual_.size(), 0.0);
   stiffness_.set_weight(request.inertia ? 1.0 : 0.0);

@@ -1,6 +1,7 @@
 #include "implicit_stiffness.hpp"
 
 #include <algorithm>
+#include <stdexcept>
 #include <utility>
 
 namespace balocco {
@@ -91,6 +92,7 @@ void ImplicitStiffness::start(std::span<const double> motion) {
 }
 
 void ImplicitStiffness::finish() {
+  if (next_ != values_.size()) throw std::logic_error("the stiffness was assembled in another order than its pattern was recorded in");
   petsc(MatSetValuesCOO(matrix_, values_.data(), INSERT_VALUES));
 }
 

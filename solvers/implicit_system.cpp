@@ -138,6 +138,7 @@ void ImplicitSystem::record_pattern() {
   record_bodies();
   if (!dynamics_) for_each_spin([&](const NodeMotion& spin, std::int32_t) { stiffness_.add(std::array{spin}, {}); });
   if (dynamics_) {
+    record_bodies();  // of contact
     dynamics_->record_inertia(stiffness_);
     record_bodies();
   }
