@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "checkpoint_file.hpp"
 #include "model/diagnostics.hpp"
@@ -93,7 +94,30 @@ class Preparation {
                       "END STEP out, or "
                       "put a dynamic step between",
                       place.number() + 1, place.number()));
+    refuse_held_curves(model_.steps[place.step], next);
     procedure->duration = place.step_time + place.time_increment;
+  }
+
+  /// What the next step holds of a curve over step time is known to the reader for the whole step alone.
+  void refuse_held_curves(const Step& ended, const Step& next) const {
+    const auto is_held = [&](const auto& course, const auto& later) {
+      return course.amplitude >= 0 && !model_.amplitudes[course.amplitude].total_time && later.amplitude < 0 &&
+             later.file == course.file && later.line == course.line;
+    };
+    const auto check = [&](const auto& courses, const auto& later) {
+      for (const auto& course : courses)
+        if (std::ranges::any_of(later, [&](const auto& other) { return is_held(course, other); }))
+          refuse(fmt::format("the step behind it holds what the amplitude of {} reaches at its end, so that it cannot end early; leave END STEP "
+                             "out, or say the load or motion again in the new step",
+                             model_.where({course.file, course.line})));
+    };
+    check(ended.boundary, next.boundary);
+    check(ended.concentrated_loads, next.concentrated_loads);
+    check(ended.pressures, next.pressures);
+    check(ended.body_loads, next.body_loads);
+    check(ended.connector_loads, next.connector_loads);
+    const auto course_of = std::views::transform(&ConnectorMotion::course);
+    check(ended.connector_motions | course_of, next.connector_motions | course_of);
   }
 
   const std::string& path_;

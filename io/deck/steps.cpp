@@ -14,12 +14,26 @@ namespace balocco::deck {
 
 namespace {
 
-/// Magnitude that a load has reached at the end of a step.
-template <class Load>
-double reached(const Model& model, const Load& load, double step_time, double total_time) {
-  if (load.amplitude < 0) return load.magnitude;
-  const Amplitude& amplitude = model.amplitudes[load.amplitude];
-  return load.magnitude * amplitude.value(amplitude.total_time ? total_time : step_time);
+/// Magnitude that a load or a motion has reached at the end of a step.
+template <class Course>
+double reached(const Model& model, const Course& course, double step_time, double total_time) {
+  if (course.amplitude < 0) return course.magnitude;
+  const Amplitude& amplitude = model.amplitudes[course.amplitude];
+  return course.magnitude * amplitude.value(amplitude.total_time ? total_time : step_time);
+}
+
+/// A curve over the time of the step that has ended leaves what it reached there; one over total time goes on.
+template <class Course>
+void hold(const Model& model, Course& course, double step_time) {
+  if (course.amplitude < 0 || model.amplitudes[course.amplitude].total_time) return;
+  course.magnitude = reached(model, course, step_time, 0.0);
+  course.amplitude = -1;
+}
+
+/// A propagated velocity or acceleration goes on as it was at the end; a displacement stays where it is (has_arrived).
+void propagate(const Model& model, BoundaryCondition& condition, double step_time) {
+  condition.propagated = true;
+  if (condition.kind != BoundaryCondition::Kind::displacement) hold(model, condition, step_time);
 }
 
 void hold_ground_nodes(const Builder& builder, Step& step) {
@@ -49,12 +63,12 @@ void inherit(Builder& builder, Step& step) {
   if (builder.without_field.contains(general)) builder.without_field.insert(row);
   if (builder.without_history.contains(general)) builder.without_history.insert(row);
   step.boundary = before.boundary;
-  for (auto& condition : step.boundary) condition.propagated = true;
+  for (auto& condition : step.boundary) propagate(model, condition, before.duration());
   step.concentrated_loads = before.concentrated_loads;
   step.pressures = before.pressures;
   step.body_loads = before.body_loads;
   step.connector_motions = before.connector_motions;
-  for (auto& motion : step.connector_motions) motion.course.propagated = true;
+  for (auto& motion : step.connector_motions) propagate(model, motion.course, before.duration());
   step.connector_loads = before.connector_loads;
   step.active_contact_pairs = before.active_contact_pairs;
   step.removed_elements = before.removed_elements;
@@ -67,7 +81,10 @@ void inherit(Builder& builder, Step& step) {
   double total = 0.0;
   for (const auto& done : model.steps) total += done.duration();
   const auto settle = [&](auto& loads) {
-    for (auto& load : loads) load.previous = reached(model, load, before.duration(), total);
+    for (auto& load : loads) {
+      load.previous = reached(model, load, before.duration(), total);
+      hold(model, load, before.duration());
+    }
     std::erase_if(loads, [](const auto& load) { return load.magnitude == 0.0 && load.previous == 0.0; });
   };
   settle(step.concentrated_loads);

@@ -110,6 +110,9 @@ def ended_step(run):
     again = run.job(second, 1, "in_two", ("--import", run.checkpoint(first), "--until", "TWO"))
     again = run.job(second, 2, "in_two", ("--restart",))
     check("same bits when that is restarted", same_steps(job, again, (2, 3)), 1.0, 0.0)
+    pushed = second.replace("*INITIAL", "*AMPLITUDE, NAME=A\n0., 1., 1., 0.5\n*INITIAL", 1).replace("EXPLICIT\n, 1.\n", "EXPLICIT\n, 1.\n*CLOAD, AMPLITUDE=A\nALL, 1, 1.\n", 1)
+    job = run.job(pushed, 1, "third", ("--import", run.checkpoint(first)), 2)
+    check("a load that the next step holds is refused", float(job.output.count("holds what the amplitude of")), 1.0, 0.0)
 
 
 def tumbling(run):

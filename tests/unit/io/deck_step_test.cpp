@@ -55,6 +55,30 @@ TEST(DeckStep, LoadsStartWhereTheyStood) {
   EXPECT_EQ(steps[2].concentrated_loads[0].previous, 3.0);
 }
 
+TEST(DeckStep, CurvesOverStepTimeLeaveWhatTheyReached) {
+  const std::string amplitudes =
+      "*AMPLITUDE, NAME=HALF\n0., 1., 1., 0.5\n*AMPLITUDE, NAME=DONE\n0., 1., 1., 0.\n*AMPLITUDE, NAME=ALL, TIME=TOTAL TIME\n0., 1., 4., 0.\n";
+  const auto steps = steps_of(amplitudes +
+                              "*STEP\n*STATIC\n*CLOAD, AMPLITUDE=HALF\n7, 3, 8.\n*CLOAD, AMPLITUDE=DONE\n7, 1, 8.\n*CLOAD, AMPLITUDE=ALL\n8, 3, 4.\n"
+                              "*DLOAD, AMPLITUDE=HALF\nALL, P2, 4.\nALL, GRAV, 9., 0., 0., -1.\n*BOUNDARY, TYPE=VELOCITY, AMPLITUDE=HALF\n1, 1, 1, 3.\n"
+                              "*BOUNDARY, AMPLITUDE=HALF\n1, 2, 2, 3.\n*END STEP\n*STEP\n*STATIC\n*END STEP\n*STEP\n*STATIC\n*END STEP\n");
+  for (const auto& step : {steps[1], steps[2]}) {
+    ASSERT_EQ(step.concentrated_loads.size(), 2u);  // what came to nothing is gone
+    EXPECT_EQ(step.concentrated_loads[0].magnitude, 4.0);
+    EXPECT_EQ(step.concentrated_loads[0].previous, 4.0);
+    EXPECT_EQ(step.concentrated_loads[0].amplitude, -1);
+    EXPECT_EQ(step.concentrated_loads[1].magnitude, 4.0);
+    EXPECT_EQ(step.concentrated_loads[1].amplitude, 2);
+    EXPECT_EQ(step.pressures[0].magnitude, 2.0);
+    EXPECT_EQ(step.body_loads[0].magnitude, 4.5);
+    EXPECT_EQ(step.body_loads[0].amplitude, -1);
+    EXPECT_EQ(step.boundary[0].magnitude, 1.5);
+    EXPECT_EQ(step.boundary[0].amplitude, -1);
+    EXPECT_TRUE(step.boundary[1].propagated);  // a displacement stays where it is
+  }
+  EXPECT_EQ(steps[2].concentrated_loads[1].previous, 2.0);
+}
+
 TEST(DeckStep, PressureOnFacesAndGravity) {
   const auto model = read(brick + "*STEP\n*STATIC\n*DLOAD\nALL, P2, 4.\n, GRAV, 9.81, 0., 0., -2.\n*END STEP\n").model;
   const Step& step = model.steps[0];
