@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "implicit_linear_solver.hpp"
+#include "factorization.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -39,26 +39,28 @@ double Eigenmodes::small_shift() const {
   return -1e-9 * sum_of_stiffness / sum_of_mass;
 }
 
-int Eigenmodes::count_below(double value) {
+/// Leaves in `solver` the factors of K - value * M.
+void Eigenmodes::factorize_shifted(double value, KSP solver) {
   PetscMatrix shifted;
   petsc(MatDuplicate(stiffness_, MAT_COPY_VALUES, shifted.address()));
   petsc(MatAXPY(shifted, -value, mass_, DIFFERENT_NONZERO_PATTERN));
   petsc(MatSetOption(shifted, MAT_SYMMETRIC, PETSC_TRUE));
-  PetscSolver solver;
-  petsc(KSPCreate(communicator_.handle(), solver.address()));
   petsc(KSPSetOperators(solver, shifted, shifted));
   use_symmetric_factorization(solver);
-  petsc(KSPSetUp(solver));
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  petsc(KSPGetConvergedReason(solver, &reason));
+  if (!factorize(solver))
+    throw AnalysisError(fmt::format("the stiffness shifted by {:.6g} cannot be factorised; choose another shift or bound", value));
+}
+
+int Eigenmodes::count_below(double value) {
+  PetscSolver solver;
+  petsc(KSPCreate(communicator_.handle(), solver.address()));
+  factorize_shifted(value, solver);
   PC preconditioner = nullptr;
   Mat factor = nullptr;
   PetscInt negative = 0;
   petsc(KSPGetPC(solver, &preconditioner));
   petsc(PCFactorGetMatrix(preconditioner, &factor));
   petsc(MatGetInertia(factor, &negative, nullptr, nullptr));
-  if (reason == KSP_DIVERGED_PC_FAILED)
-    throw AnalysisError(fmt::format("the stiffness shifted by {:.6g} cannot be factorised; choose another shift or bound", value));
   return static_cast<int>(negative) - multipliers_;  // each independent constraint turns one eigenvalue into a pair of both signs
 }
 
@@ -77,7 +79,15 @@ std::vector<EigenPair> Eigenmodes::nearest(double shift, int number, EPSProblemT
   petsc(STSetType(transform, STSINVERT));
   petsc(STSetMatStructure(transform, DIFFERENT_NONZERO_PATTERN));
   petsc(STGetKSP(transform, &linear));
-  use_symmetric_factorization(linear);
+  // Factors made here: SLEPc's own factorisation gives up where MUMPS only wants more room.
+  PetscSolver factorized;
+  PC factors = nullptr;
+  petsc(KSPCreate(communicator_.handle(), factorized.address()));
+  factorize_shifted(shift, factorized);
+  petsc(KSPGetPC(factorized, &factors));
+  petsc(PCSetReusePreconditioner(factors, PETSC_TRUE));
+  petsc(KSPSetType(linear, KSPPREONLY));
+  petsc(KSPSetPC(linear, factors));
   petsc(EPSSetFromOptions(solver));
   petsc(EPSSolve(solver));
 

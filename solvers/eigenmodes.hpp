@@ -38,6 +38,7 @@ class Eigenmodes {
   double small_shift() const;
 
  private:
+  void factorize_shifted(double value, KSP solver);
   std::vector<EigenPair> search(const EigenRange& range);
   std::vector<EigenPair> nearest(double shift, int number, EPSProblemType type = EPS_GHEP);
 

@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string_view>
+
+#include "factorization.hpp"
 
 namespace balocco {
 
@@ -12,12 +13,6 @@ namespace {
 /// A motion is unresisted when the forces that it calls forth are this small against those of the average dof: rounding
 /// errors leave about 1e-16 of singular matrices, and the softest structures that we meet keep well above.
 constexpr double smallest_resistance = 1e-14;
-
-void set_default_option(const char* name, const char* value) {
-  PetscBool is_set = PETSC_FALSE;
-  petsc(PetscOptionsHasName(nullptr, nullptr, name, &is_set));
-  if (is_set == PETSC_FALSE) petsc(PetscOptionsSetValue(nullptr, name, value));
-}
 
 /// Reproducible noise in (-1, 1) that depends on the number of the equation only.
 double noise(PetscInt equation) {
@@ -37,12 +32,6 @@ void fill_with_noise(Vec vector) {
 }
 
 }  // namespace
-
-void set_factorization_defaults() {
-  set_default_option("-mat_mumps_icntl_7", "3");    // SCOTCH: half the operations of the default ordering
-  set_default_option("-mat_mumps_icntl_14", "60");  // room for pivoting, per cent
-  set_default_option("-mat_mumps_icntl_13", "1");   // the root front on one rank
-}
 
 ImplicitLinearSolver::ImplicitLinearSolver(Mat matrix, const Analysis& analysis, const ImplicitDofMap& map)
     : map_(map), matrix_(matrix) {
@@ -110,38 +99,13 @@ void ImplicitLinearSolver::set_near_null_space(const Analysis& analysis) {
   for (auto& vector : vectors) petsc(VecDestroy(&vector));
 }
 
-/// Pivots that multipliers put off may need far more room than MUMPS had foreseen. @return whether it has more now.
-bool ImplicitLinearSolver::makes_room(PC preconditioner) {
-  constexpr PetscInt too_little_integer_room = -8, too_little_room = -9, most_room = 2000;  // per cent
-  Mat factor = nullptr;
-  MatSolverType package = nullptr;
-  PetscBool factorises = PETSC_FALSE;
-  petsc(PetscObjectTypeCompareAny(reinterpret_cast<PetscObject>(preconditioner), &factorises, PCLU, PCCHOLESKY, ""));
-  if (factorises == PETSC_FALSE) return false;
-  petsc(PCFactorGetMatrix(preconditioner, &factor));
-  petsc(PCFactorGetMatSolverType(preconditioner, &package));
-  if (factor == nullptr || package == nullptr || std::string_view(package) != MATSOLVERMUMPS) return false;
-  PetscInt status = 0, room = 0;
-  petsc(MatMumpsGetInfog(factor, 1, &status));
-  petsc(MatMumpsGetIcntl(factor, 14, &room));
-  if ((status != too_little_integer_room && status != too_little_room) || room >= most_room) return false;
-  petsc(PetscOptionsSetValue(nullptr, "-mat_mumps_icntl_14", std::to_string(3 * room).c_str()));
-  return true;
-}
-
 bool ImplicitLinearSolver::solve_vectors(Mat matrix, Vec right_hand_side, Vec solution) {
   const double start = MPI_Wtime();
-  KSPConvergedReason reason = KSP_CONVERGED_ITERATING;
-  for (bool again = true; again;) {
-    petsc(KSPSetOperators(solver_, matrix, matrix));
+  KSPConvergedReason reason = KSP_DIVERGED_PC_FAILED;
+  petsc(KSPSetOperators(solver_, matrix, matrix));
+  if (factorize(solver_)) {
     petsc(KSPSolve(solver_, right_hand_side, solution));
     petsc(KSPGetConvergedReason(solver_, &reason));
-    again = false;
-    if (reason != KSP_DIVERGED_PC_FAILED) continue;
-    PC preconditioner = nullptr;
-    petsc(KSPGetPC(solver_, &preconditioner));
-    again = makes_room(preconditioner);
-    petsc(PCReset(preconditioner));  // after a factorisation that broke down PETSc's interface to MUMPS would skip the next one
   }
   seconds_ += MPI_Wtime() - start;
   double norm = 0.0;

@@ -9,10 +9,6 @@
 
 namespace balocco {
 
-/// MUMPS's options where the command line does not say them: a good ordering, room for pivoting, and the root front on one rank,
-/// so that singular matrices and numbers of negative pivots are told.
-void set_factorization_defaults();
-
 class ImplicitLinearSolver {
  public:
   /// `matrix` keeps its pattern, so that the symbolic factorisation is made once. A matrix that is symmetric to round-off
@@ -43,7 +39,6 @@ class ImplicitLinearSolver {
   void set_near_null_space(const Analysis& analysis);
   bool solve_vectors(Mat matrix, Vec right_hand_side, Vec solution);
   void clear_multipliers(Vec vector);
-  static bool makes_room(PC preconditioner);
   std::string unresisted_equation();
   std::string largest_component(Vec vector);
 

@@ -281,8 +281,33 @@ def sliding(runner):
     assert found["is smooth"][0] < 0.7 * found["held"][0], found
 
 
+def tied_column(runner):
+    """A column of two blocks that are tied, whose multipliers take pivots that MUMPS had not foreseen. Meshes that match: the modes of one
+    block. A finer mesh on a coarser one: the load factor of CalculiX 2.20 for the same deck (its C3D8I are like ours, but not the same)."""
+    def column(upper):
+        deck = brick((2, 2, 2 if upper else 4), (1.0, 1.0, 2.0 if upper else 4.0), "C3D8I")
+        if upper:
+            above = brick((upper, upper, 2), (1.0, 1.0, 2.0), "C3D8I", lambda x, y, z: (x, y, z + 2.0), 1001, 1001)
+            deck.nodes.update(above.nodes)
+            deck.elements["C3D8I"] += above.elements["C3D8I"]
+            deck.add("*ELSET, ELSET=LOWER, GENERATE\n1, 8\n*ELSET, ELSET=UPPER, GENERATE\n1001, %d" % (1000 + len(above.elements["C3D8I"])))
+            deck.add("*SURFACE, NAME=MASTER\nLOWER, S2\n*SURFACE, NAME=SLAVE\nUPPER, S1\n*TIE, NAME=GLUE, POSITION TOLERANCE=0.01\nSLAVE, MASTER")
+        deck.sets.update(FOOT=deck.where(lambda x, y, z: z == 0.0), TOP=deck.where(lambda x, y, z: z == 4.0))
+        deck.add("*SOLID SECTION, ELSET=ALL, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n210000., 0.3\n*DENSITY\n7.8e-9\n*BOUNDARY\nFOOT, 1, 3")
+        deck.add("*STEP\n*FREQUENCY\n4\n*END STEP\n*STEP\n*BUCKLE\n1\n*CLOAD\nTOP, 3, -1.\n*END STEP")
+        return deck
+
+    whole, matching = runner.run("whole", column(0)), run_alike(runner, "matching", column(2), 1)
+    for step in (1, 2):
+        for one, two in zip(modes(whole, step), modes(matching, step), strict=True):
+            close(two.attrs["eigenvalue"], one.attrs["eigenvalue"], 1e-9, "step %d: eigenvalue of the blocks tied" % step)
+    for ranks in (1, 2):
+        finer = runner.run("finer", column(3), ranks)
+        close(modes(finer, 2)[0].attrs["eigenvalue"], 169.1926, 1e-3, "load factor")
+
+
 CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent,
-                                                strip_buckled, euler_column, shaft, sliding)}
+                                                strip_buckled, euler_column, tied_column, shaft, sliding)}
 CASES["cantilever"] = cantilever_modes
 
 if __name__ == "__main__":
