@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "constraints/linkages.hpp"
+#include "implicit_freedoms.hpp"
 #include "model/bounding_box.hpp"
 
 namespace balocco {
@@ -23,43 +24,6 @@ Point row(const Matrix3<double>& matrix, int i) {
 
 Point cross_product(const Point& a, const Point& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-constexpr std::int8_t held_in_place = 1, held_from_turning = 2;
-
-/// In implicit dynamics inertia holds what nothing else does.
-void mark_inert_nodes(const Analysis& analysis, std::vector<std::int8_t>& held) {
-  const auto mark = [&](std::int32_t node, std::int8_t kind) {
-    auto& of_node = held[analysis.domain.node_row[node]];
-    of_node = std::max(of_node, kind);
-  };
-  for (std::int32_t node = 0; node < analysis.domain.size(); ++node)
-    if (analysis.inertia.mass[node] > 0.0) mark(node, held_in_place);
-  for (std::int32_t node = 0; node < analysis.domain.turning; ++node)
-    if (analysis.inertia.rotary[node] > 0.0) mark(node, held_from_turning);
-  for (const auto& tensor : analysis.rotary_tensors) mark(tensor.node, held_from_turning);
-}
-
-/// Model nodes that some element with stiffness or a constraint holds, on any rank: in place, or from turning too.
-std::vector<std::int8_t> held_nodes(const Analysis& analysis) {
-  std::vector<std::int8_t> held(analysis.model.nodes.size(), 0);
-  for (const auto& group : analysis.element_groups) {
-    const auto kind = group->freedoms_per_node() == 6 ? held_from_turning : held_in_place;
-    for (std::int32_t element = 0; element < group->size(); ++element)
-      for (const auto node : group->nodes(element)) {
-        auto& mark = held[analysis.domain.node_row[node]];
-        mark = std::max(mark, kind);
-      }
-  }
-  for (const auto& constraint : analysis.constraints)
-    for (std::size_t i = 0; i < constraint->nodes().size(); ++i) {
-      auto& mark = held[constraint->nodes()[i]];
-      mark = std::max(mark, constraint->turns(static_cast<int>(i)) ? held_from_turning : held_in_place);
-    }
-  if (std::holds_alternative<DynamicProcedure>(analysis.model.steps[analysis.current.step].procedure)) mark_inert_nodes(analysis, held);
-  MPI_Allreduce(MPI_IN_PLACE, held.data(), static_cast<int>(held.size()), MPI_INT8_T, MPI_MAX,
-                analysis.communicator.handle());
-  return held;
 }
 
 }  // namespace
@@ -99,13 +63,16 @@ const Matrix3<double>& ImplicitDofMap::directions(std::int32_t node) const {
 
 void ImplicitDofMap::find_roles(std::span<const std::int32_t> prescribed) {
   role_.assign(layout_.first_multiplier() + constraint_row_.size(), Role::free);
-  const auto held = held_nodes(analysis_);
+  const auto used = used_freedoms(analysis_);
+  refuse_loads_on_nothing(analysis_, used);
   for (std::int32_t node = 0; node < layout_.nodes; ++node) {
-    const bool moves = held[analysis_.domain.node_row[node]] != 0 || analysis_.reference_of(node) >= 0;
-    if (analysis_.carrier(node) >= 0 || !moves) std::fill_n(role_.begin() + 3 * node, 3, Role::absent);
-    if (node >= layout_.turning) continue;
-    const bool turns = held[analysis_.domain.node_row[node]] == held_from_turning && analysis_.turning_body(node) < 0;
-    if (!turns) std::fill_n(role_.begin() + slot(node, 3), 3, Role::absent);
+    const auto freedoms = used[analysis_.domain.node_row[node]];
+    const bool moves = analysis_.carrier(node) < 0, turns = node < layout_.turning && analysis_.turning_body(node) < 0;
+    const bool leads = analysis_.reference_of(node) >= 0;  // a rigid body
+    for (int dof = 0; dof < (node < layout_.turning ? 6 : 3); ++dof) {
+      const bool is_used = freedoms.test(dof) || (dof < 3 && leads);
+      if (!is_used || !(dof < 3 ? moves : turns)) role_[slot(node, dof)] = Role::absent;
+    }
   }
   for (const auto slot : prescribed)
     if (role_[slot] == Role::free) role_[slot] = Role::prescribed;

@@ -35,6 +35,8 @@ class Constraint {
   int columns() const { return 6 * static_cast<int>(nodes_.size()); }
   /// Whether the constraint speaks of the rotation of its node number `i`.
   virtual bool turns(int i) const = 0;
+  /// Whether it may speak of a degree of freedom of that node: 0-2 along, 3-5 about the node's own directions.
+  virtual bool uses(int i, int dof) const { return dof < 3 || turns(i); }
   /// Whether gradient() is the same everywhere.
   virtual bool is_linear() const { return false; }
 

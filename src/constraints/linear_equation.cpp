@@ -15,11 +15,13 @@ EquationConstraint::EquationConstraint(const Model& model, const LinearEquation&
       nodes_.push_back(row);
       reference_.push_back(model.nodes.coordinates[row]);
       turns_.push_back(false);
+      uses_.push_back({});
       gradient_.resize(6 * nodes_.size(), 0.0);
     }
     const auto direction = directions.direction(row, dof % 3);
     for (int c = 0; c < 3; ++c) gradient_[6 * at + (dof < 3 ? c : 3 + c)] += coefficient * direction[c];
     if (dof >= 3) turns_[at] = true;
+    uses_[at][dof] = true;
   }
 }
 

@@ -1,6 +1,8 @@
 // *EQUATION: one row, sum of coefficient * displacement (rotation vector) along the nodes' own directions.
 #pragma once
 
+#include <array>
+
 #include "constraints/constraint.hpp"
 
 namespace balocco {
@@ -10,6 +12,7 @@ class EquationConstraint : public Constraint {
   EquationConstraint(const Model& model, const LinearEquation& equation);
 
   bool turns(int i) const override { return turns_[i]; }
+  bool uses(int i, int dof) const override { return uses_[i][dof]; }
   bool is_linear() const override { return true; }
   void gaps(std::span<const NodePlace> places, std::span<double> g) const override;
   void gradient(std::span<const NodePlace> places, std::span<double> dg) const override;
@@ -19,6 +22,7 @@ class EquationConstraint : public Constraint {
   std::vector<double> gradient_;
   std::vector<Point> reference_;  // coordinates of the nodes
   std::vector<bool> turns_;
+  std::vector<std::array<bool, 6>> uses_;
 };
 
 }  // namespace balocco

@@ -142,7 +142,48 @@ def mean_rotation(runner):
             close(energy("ALLIE"), 0.5 * angle * results.at(99, "RF")[0], 1e-6, "strain energy and work")
 
 
-CASES = {case.__name__: case for case in (superposition, small_strain, then_finite, equations_removed, released, mean_rotation)}
+def dummy_nodes(runner):
+    """Nodes of no element have those degrees of freedom alone that an equation or a spring uses: the top of a block follows node 100 in
+    one, which a spring joins to one of node 200. A force there stretches both; natural modes are those of a top that stays plane."""
+    young, stiffness, force = 1000.0, 50.0, 3.0
+    deck = brick((1, 1, 1), (1.0, 1.0, 1.0), "C3D8")
+    top = deck.where(lambda x, y, z: z > 0.5)
+    deck.sets.update(BASE=deck.where(lambda x, y, z: z < 0.5), FIRST=top[:1])
+    plane = copy.deepcopy(deck)
+    deck.add_node(100, 0.0, 0.0, 2.0)
+    deck.add_node(200, 0.0, 0.0, 3.0)
+    deck.elements["SPRING2"] = [(9, [200, 100])]
+    for each, leader, followers in ((deck, 100, top), (plane, top[0], top[1:])):
+        each.add("*SOLID SECTION, ELSET=BLOCK, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n%g, 0.\n*DENSITY\n2.\n*ELSET, ELSET=BLOCK\n1" % young)
+        each.add("*BOUNDARY\nBASE, 1, 3")
+        each.add("\n".join("*EQUATION\n2\n%d, 3, 1., %d, 3, -1." % (n, leader) for n in followers))
+    deck.add("*ELSET, ELSET=SPRING\n9\n*SPRING, ELSET=SPRING\n1, 3\n%g" % stiffness)
+    modes = "*STEP\n*FREQUENCY\n3\n*END STEP"
+    loaded = copy.deepcopy(deck)
+    loaded.add(STEP % ("", "*CLOAD\n200, 1, %g" % force))
+    loaded.add(STEP % (", NLGEOM", ""))
+    results = runner.run_alike("dummy", loaded)
+    for step, stretch in ((1, force / young), (2, results.at(100, "U", 2)[2])):
+        strain = stretch + 0.5 * stretch**2 if step == 2 else stretch
+        close(young * strain * (1.0 + stretch if step == 2 else 1.0), force, 1e-8, "force in the block of step %d" % step)
+        for n in (*top, 100):
+            close(results.at(n, "U", step)[2], stretch, 1e-8, "top in step %d" % step)
+        close(results.at(200, "U", step)[0], stretch + force / stiffness, 1e-8, "end of the spring in step %d" % step)
+    alone, still = copy.deepcopy(deck), copy.deepcopy(plane)
+    alone.add(modes)
+    still.add(modes)
+    eigenvalues = [[results.file["step_1/mode_%d" % k].attrs["eigenvalue"] for k in (1, 2, 3)]
+                   for results in (runner.run("alone", alone, 1), runner.run("alone", alone, 2), runner.run("plane", still, 1))]
+    for k in range(3):
+        close(eigenvalues[0][k], eigenvalues[2][k], 1e-9, "mode %d" % (k + 1))
+        close(eigenvalues[1][k], eigenvalues[2][k], 1e-9, "mode %d on two ranks" % (k + 1))
+    deck.add(STEP % ("", "*CLOAD\n200, 2, 1."))
+    for ranks in (1, 2):
+        done, _ = runner.launch("refused", deck, ranks)
+        assert done.returncode == 2 and "nothing uses degree of freedom 2 of node 200" in done.stdout + done.stderr, done.stdout + done.stderr
+
+
+CASES = {case.__name__: case for case in (superposition, small_strain, then_finite, equations_removed, released, mean_rotation, dummy_nodes)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](Runner(sys.argv[2], sys.argv[3]))

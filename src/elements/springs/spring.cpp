@@ -76,6 +76,11 @@ void SpringGroup::find_directions(const GroupInput& input) {
   }
 }
 
+bool SpringGroup::acts_along(std::int32_t element, int end, const std::array<double, 3>& direction) const {
+  constexpr double rounding = 1e-12;  // of unit vectors
+  return axial_ || std::abs(dot(direction_[element][end], vector(direction))) > rounding;
+}
+
 void SpringGroup::initialize_history(std::span<double> history) const { std::ranges::fill(history, 0.0); }
 
 void SpringGroup::lumped_volume(std::int32_t, std::span<double> volume) const { std::ranges::fill(volume, 0.0); }

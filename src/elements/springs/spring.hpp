@@ -35,6 +35,8 @@ class SpringGroup final : public ElementGroup {
   Restraint restraint(std::int32_t element) const override { return turns() ? Restraint{} : bound(element); }
   Restraint rotary_restraint(std::int32_t element) const override { return turns() ? bound(element) : Restraint{}; }
   int integration_points() const override { return 1; }
+  /// Whether it may act along `direction` (unit; about it where it turns its nodes) on its node number `end`.
+  bool acts_along(std::int32_t element, int end, const std::array<double, 3>& direction) const;
   std::size_t bytes_per_element() const override;
 
  private:
