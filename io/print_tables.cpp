@@ -132,6 +132,7 @@ std::vector<PrintTables::Place> PrintTables::elements_of(const ResultSource& sou
   std::vector<Place> places;
   for (const auto element : elements) {
     if (model_.elements[element.table].type->make_group == nullptr) continue;
+    if (std::ranges::binary_search(model_.steps[step_].removed_elements, element)) continue;
     position.emplace(element, places.size());
     places.push_back({model_.elements[element.table].id[element.row], element.table, element.row});
   }

@@ -28,9 +28,11 @@ Freedoms freedoms_of(const Analysis& analysis, const ElementGroup& group, std::i
 
 void add_elements(const Analysis& analysis, Table& table) {
   for (const auto& group : analysis.element_groups)
-    for (std::int32_t element = 0; element < group->size(); ++element)
+    for (std::int32_t element = 0; element < group->size(); ++element) {
+      if (!analysis.takes_part(*group, element)) continue;
       for (std::size_t end = 0; end < group->nodes(element).size(); ++end)
         table[analysis.domain.node_row[group->nodes(element)[end]]] |= freedoms_of(analysis, *group, element, static_cast<int>(end)).to_ulong();
+    }
 }
 
 void add_constraints(const Analysis& analysis, Table& table) {

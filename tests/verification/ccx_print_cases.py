@@ -18,6 +18,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 TOLERANCE = {
     "held_loads": 1e-6,
     "dummy_node": 1e-6,
+    "removed_elements": 1e-6,
 }
 
 
