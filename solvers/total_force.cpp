@@ -3,18 +3,26 @@
 #include <algorithm>
 #include <vector>
 
+#include "constraints/linkages.hpp"
 #include "elements/element_type.hpp"
 
 namespace balocco {
 
 namespace {
 
-/// By node of the model, whether it belongs to an element with forces: what holds another one has no forces of elements to be told by.
-std::vector<bool> nodes_of_elements(const Model& model) {
-  std::vector<bool> held(static_cast<std::size_t>(model.nodes.size()), false);
+/// By node of the model, whether what its elements resist tells its force: CalculiX adds to the others what constraints exert on them,
+/// but for that of equations. A node that equations alone know is so told nothing, and a body in equilibrium sums to zero.
+std::vector<bool> told_by_elements(const Model& model) {
+  std::vector<bool> told(static_cast<std::size_t>(model.nodes.size()), false);
+  for (const auto& constraint : model.constraints)
+    if (const auto* equation = std::get_if<LinearEquation>(&constraint.kind))
+      for (const auto& term : equation->terms) told[term.node] = true;
+  for (const auto& constraint : model.constraints)
+    if (!std::holds_alternative<LinearEquation>(constraint.kind))
+      for (const auto node : constrained_nodes(constraint.kind)) told[node] = false;
   for (const auto& table : model.elements)
-    for (std::size_t i = 0; table.type->make_group != nullptr && i < table.connectivity.size(); ++i) held[table.connectivity[i]] = true;
-  return held;
+    for (std::size_t i = 0; table.type->make_group != nullptr && i < table.connectivity.size(); ++i) told[table.connectivity[i]] = true;
+  return told;
 }
 
 }  // namespace
@@ -36,9 +44,9 @@ void total_force(const Analysis& analysis, std::span<double> values) {
   }
   domain.halo->begin_sum(sums.data());
   domain.halo->finish_sum(sums.data());
-  const auto of_elements = nodes_of_elements(analysis.model);
+  const auto told = told_by_elements(analysis.model);
   for (std::int32_t node = 0; node < domain.size(); ++node) {
-    const bool by_reaction = analysis.current.dynamic || !of_elements[domain.node_row[node]];
+    const bool by_reaction = analysis.current.dynamic || !told[domain.node_row[node]];
     const auto body = analysis.reference_of(node);
     const double* const held = by_reaction ? &analysis.reaction[4 * node] : &sums[4 * node];
     std::copy_n(body >= 0 ? analysis.body_reaction[body].data() : held, 3, &values[3 * node]);

@@ -19,6 +19,7 @@ TOLERANCE = {
     "held_loads": 1e-6,
     "dummy_node": 1e-6,
     "removed_elements": 1e-6,
+    "equation_totals": 1e-6,
 }
 
 
