@@ -1,4 +1,4 @@
-// *STEP *END STEP *STATIC *DYNAMIC *BULK VISCOSITY *CONTROLS.
+// *STEP *END STEP *STATIC *DYNAMIC *BULK VISCOSITY.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include "deck/mass_scaling.hpp"
 #include "deck/register.hpp"
 #include "deck/step_draft.hpp"
+#include "deck/sudden_loads.hpp"
 #include "deck/text.hpp"
 #include "elements/turning_nodes.hpp"
 
@@ -186,12 +187,10 @@ void end_step(Builder& builder, const Block& block) {
     builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC, *DYNAMIC or *FREQUENCY");
   }
   Step& step = current_step(builder);
-  if (builder.draft.has_procedure && builder.draft.amplitude == (step.ramps_loads() ? "STEP" : "RAMP")) {
-    builder.diagnostics.error(
-        builder.draft.location, "STEP",
-        fmt::format("AMPLITUDE={}: {}; leave it out and give the loads an *AMPLITUDE", builder.draft.amplitude,
-                    step.ramps_loads() ? "loads of a static step grow linearly over it" : "loads of a dynamic step act at once"));
-  }
+  if (builder.draft.has_procedure && builder.draft.amplitude == "RAMP" && !step.ramps_loads())
+    builder.diagnostics.error(builder.draft.location, "STEP",
+                              "AMPLITUDE=RAMP: loads of a dynamic step act at once; leave it out and give the loads an *AMPLITUDE");
+  if (builder.draft.amplitude == "STEP" && std::holds_alternative<StaticProcedure>(step.procedure)) act_at_once(builder);
   if (builder.draft.perturbation && !step.is_perturbation()) begin_static_perturbation(builder, block);
   if (step.is_perturbation()) drop_loads_of_the_state(builder, step);
   if (step.seeks_modes()) end_search_for_modes(builder, step);
@@ -331,41 +330,6 @@ void read_bulk_viscosity(Builder& builder, const Block& block) {
   }
 }
 
-/// Fields that a *CONTROLS line has but Balocco does not honour must be empty.
-void only_fields(Row& row, std::initializer_list<int> known) {
-  for (int field = 0; field < row.size(); ++field) {
-    if (row.has(field) && std::find(known.begin(), known.end(), field) == known.end()) {
-      row.error(fmt::format("field {} ('{}') is not supported; leave it empty", field + 1, row.text(field)));
-      return;
-    }
-  }
-}
-
-void read_controls(Builder& builder, const Block& block) {
-  auto& controls = builder.draft.controls;
-  if (block.has("RESET")) controls = {};
-  if (block.lines.empty()) return;
-  Row row(builder, block, block.lines[0]);
-  const std::string parameters = squeeze(block.value("PARAMETERS"));
-  if (parameters == "FIELD") {  // R_n, C_n
-    only_fields(row, {0, 1});
-    controls.residual_tolerance = row.real_or(0, controls.residual_tolerance, "residual tolerance");
-    controls.correction_tolerance = row.real_or(1, controls.correction_tolerance, "correction tolerance");
-    if (row.ok() && !(controls.residual_tolerance > 0.0 && controls.correction_tolerance > 0.0))
-      row.error("tolerances must be positive; correct them");
-  } else if (parameters == "TIMEINCREMENTATION") {  // I_0, I_R, I_P, I_C: the fourth is the limit of iterations
-    only_fields(row, {3});
-    controls.maximum_iterations =
-        static_cast<std::int32_t>(row.integer_or(3, controls.maximum_iterations, "most iterations"));
-    if (row.ok() && controls.maximum_iterations < 1) row.error("the number of iterations must be positive; correct it");
-  } else {  // N_ls: 0 switches the line search off
-    only_fields(row, {0});
-    controls.line_search = row.integer_or(0, 0, "most line-search iterations") > 0;
-  }
-  if (block.lines.size() > 1)
-    builder.error(block, block.lines[1].location, "further lines of *CONTROLS are not supported; remove them");
-}
-
 const RegisterKeyword step{
     {"STEP",
      Phase::history,
@@ -388,11 +352,6 @@ const RegisterKeyword dynamic{{"DYNAMIC",
                                 foreign("SOLVER"), real("SCALE FACTOR"), real("ENERGY ERROR")},
                                read_dynamic}};
 const RegisterKeyword bulk{{"BULK VISCOSITY", Phase::history, Place::step, {}, read_bulk_viscosity}};
-const RegisterKeyword controls{{"CONTROLS",
-                                Phase::history,
-                                Place::step,
-                                {choice("PARAMETERS", {"FIELD", "TIME INCREMENTATION", "LINE SEARCH"}), flag("RESET")},
-                                read_controls}};
 }  // namespace
 
 }  // namespace balocco::deck

@@ -79,6 +79,26 @@ TEST(DeckStep, CurvesOverStepTimeLeaveWhatTheyReached) {
   EXPECT_EQ(steps[2].concentrated_loads[1].previous, 2.0);
 }
 
+TEST(DeckStep, LoadsOfAStaticStepMayActAtOnce) {
+  const auto model = read(brick +
+                          "*STEP, AMPLITUDE=STEP\n*STATIC\n*CLOAD\n7, 3, 8.\n*BOUNDARY\n1, 1, 1, 0.5\n2, 1\n*END STEP\n*STEP\n*STATIC\n*END STEP\n")
+                         .model;
+  ASSERT_EQ(model.amplitudes.size(), 1u);
+  EXPECT_EQ(model.amplitudes[0].value(0.0), 1.0);
+  EXPECT_EQ(model.amplitudes[0].value(7.0), 1.0);
+  EXPECT_EQ(model.steps[0].concentrated_loads[0].amplitude, 0);
+  EXPECT_EQ(model.steps[0].boundary[0].amplitude, 0);
+  EXPECT_EQ(model.steps[0].boundary[1].amplitude, -1);  // it does not move
+  EXPECT_EQ(model.steps[1].concentrated_loads[0].amplitude, -1);
+  EXPECT_EQ(model.steps[1].concentrated_loads[0].previous, 8.0);
+}
+
+TEST(DeckStep, ControlsOfIncrementsMaySayWhatHoldsAnyway) {
+  const auto steps = steps_of(
+      "*STEP\n*STATIC\n*CONTROLS, PARAMETERS=TIME INCREMENTATION\n4, 8, 9, 20, 10, 4, 12, 5, 6, 3\n0.25, 0.5, 0.75, 0.85, , , 1.5\n*END STEP\n");
+  EXPECT_EQ(std::get<StaticProcedure>(steps[0].procedure).controls.maximum_iterations, 20);
+}
+
 TEST(DeckStep, PressureOnFacesAndGravity) {
   const auto model = read(brick + "*STEP\n*STATIC\n*DLOAD\nALL, P2, 4.\n, GRAV, 9.81, 0., 0., -2.\n*END STEP\n").model;
   const Step& step = model.steps[0];
