@@ -87,11 +87,14 @@ void ExplicitStep::report_failure() {
 
 void ExplicitStep::report_collapse() {
   const auto worst = analysis_.communicator.minimum(Communicator::Located{stability_.increment, stability_.element});
+  const double fixed = procedure_.fixed_increment.value_or(0.0), stable = analysis_.undeformed_increment;
   throw AnalysisError(fmt::format(
       "step {}, increment {}, time {:.6g}: element {} has become so distorted that its stable increment is {:.3g} "
-      "(undeformed model: {:.3g})",
-      step_.name, analysis_.current.increment, analysis_.current.total_time, worst.payload, worst.value,
-      analysis_.undeformed_increment));
+      "(undeformed model: {:.3g}){}",
+      step_.name, analysis_.current.increment, analysis_.current.total_time, worst.payload, worst.value, stable,
+      fixed <= stable ? ""
+                      : fmt::format("; the deck's increment of {:.3g} is longer than that of the undeformed model: give a shorter one, or "
+                                    "leave DIRECT USER CONTROL out", fixed)));
 }
 
 void ExplicitStep::remember_blow_up() {

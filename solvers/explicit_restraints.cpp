@@ -98,8 +98,9 @@ void refuse_massless_restraints(const Analysis& analysis, const Step& step, cons
   const auto rotary = rotary_mobilities(analysis);
   for_each_restraint(analysis, [&](const ElementGroup& group, std::int32_t element) {
     for (const bool rotates : {false, true})
-      for (const auto node : group.nodes(element)) {
-        if (!restrains(restraint_of(group, element, rotates))) continue;
+      for (std::size_t end = 0; end < group.nodes(element).size(); ++end) {
+        const auto node = group.nodes(element)[end];
+        if (!restrains(restraint_of(group, element, rotates)) || (rotates && !group.turns_node(static_cast<int>(end)))) continue;
         if (rotates ? analysis.turning_body(node) >= 0 || held_rotation[node] || rotary[node] > 0.0 || linkages.turns(node)
                     : moving_body(analysis, node) >= 0 || held[node] || analysis.scaled_inertia().mass[node] > 0.0 ||
                           linkages.moves(node))

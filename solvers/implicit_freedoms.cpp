@@ -15,7 +15,7 @@ using Table = std::vector<std::uint8_t>;
 
 /// Springs and dashpots between degrees of freedom know those alone; other elements move their nodes every way.
 Freedoms freedoms_of(const Analysis& analysis, const ElementGroup& group, std::int32_t element, int end) {
-  const auto whole = group.freedoms_per_node() == 6 ? translations | rotations : translations;
+  const auto whole = group.turns_node(end) ? translations | rotations : translations;
   const auto* spring = dynamic_cast<const SpringGroup*>(&group);
   if (spring == nullptr) return whole;
   const auto row = analysis.domain.node_row[group.nodes(element)[end]];

@@ -104,6 +104,8 @@ class ElementGroup {
   int nodes_per_element() const { return nodes_per_element_; }
   /// 6 where the nodes turn (node by node: force, moment), else 3.
   int freedoms_per_node() const { return freedoms_per_node_; }
+  /// Whether a moment of its own may act on its nodes number `end`.
+  virtual bool turns_node([[maybe_unused]] int end) const { return freedoms_per_node_ == 6; }
 
   /// Doubles of history an element carries, and their values in the undeformed state (one element's own).
   virtual int history_size() const = 0;

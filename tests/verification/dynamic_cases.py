@@ -91,16 +91,19 @@ def connectors(balocco, folder):
     kinds = {"CARTESIAN": ("2, 1, 1e-2", 1, "U"), "ROTATION": ("2, 4, 1e-2", 4, "UR")}
     ratio, period = 0.05, 2.0 * math.pi / OMEGA
     for kind, (velocity, dof, variable) in kinds.items():
-        for ranks, nlgeom in (("1", ""), ("2", ", NLGEOM")):
-            held = "\n".join("2, %d" % k for k in range(1, 7) if k != dof)
+        for ranks, nlgeom, procedure in (("1", "", implicit(0.0, period / 100, 0.8 * period)), ("2", ", NLGEOM", implicit(0.0, period / 100, 0.8 * period)),
+                                         ("1", "", "*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n%.15g, %.15g" % (period / 400, 0.8 * period))):
+            # Components along the ground's axes put no moment on the body, which needs no inertia to turn then.
+            rotary = "*ELEMENT, TYPE=ROTARYI, ELSET=TURN\n2, 2\n*ROTARY INERTIA, ELSET=TURN\n1., 1., 1.\n" if variable == "UR" else ""
+            held = "\n".join("2, %d" % k for k in range(1, 7 if rotary else 4) if k != dof)
             start = "" if variable == "UR" else "*INITIAL CONDITIONS, TYPE=VELOCITY\n%s\n" % velocity
             push = "*CLOAD\n2, 4, 10.\n" if variable == "UR" else ""  # from rest: turns about 10 / 1000
             job = Job("connector", balocco, ranks, folder)
             job.run("*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*NSET, NSET=WATCHED\n2\n*ELEMENT, TYPE=MASS, ELSET=MASS\n1, 2\n*MASS, ELSET=MASS\n1.\n"
-                    "*ELEMENT, TYPE=ROTARYI, ELSET=TURN\n2, 2\n*ROTARY INERTIA, ELSET=TURN\n1., 1., 1.\n*ELEMENT, TYPE=CONN3D2, ELSET=C\n3, 1, 2\n"
+                    "%s*ELEMENT, TYPE=CONN3D2, ELSET=C\n3, 1, 2\n"
                     "*CONNECTOR SECTION, ELSET=C, BEHAVIOR=B\n%s\n*CONNECTOR BEHAVIOR, NAME=B\n*CONNECTOR ELASTICITY, COMPONENT=%d\n1000.\n"
                     "*CONNECTOR DAMPING, COMPONENT=%d\n%.15g\n*BOUNDARY\n1, 1, 6\n%s\n%s*STEP, INC=100000%s\n%s\n%s%s*END STEP\n"
-                    % (kind, dof, dof, 2.0 * ratio * OMEGA, held, start, nlgeom, implicit(0.0, period / 100, 0.8 * period), push,
+                    % (rotary, kind, dof, dof, 2.0 * ratio * OMEGA, held, start, nlgeom, procedure, push,
                        HISTORY.replace("U, V", "%s, V" % variable)))
             time, moved = job.history("node_2", variable)
             if variable == "U":

@@ -28,6 +28,8 @@ class ConnectorGroup : public ElementGroup {
   StableIncrement add_forces(std::span<const PackRun> runs, const ExplicitCycle& cycle, std::span<double> history) const override;
   bool linearize(std::int32_t element, const NodalMotion& motion, std::span<const double> old_history, std::span<double> new_history,
                  std::span<double> force, std::span<double> stiffness) const override;
+  /// Components along the first node's axes alone put no moment on the second.
+  bool turns_node(int end) const override { return end == 0 ? freedoms_per_node_ == 6 : connector_.rotation != Connector::Rotation::none; }
   Restraint restraint(std::int32_t element) const override;
   Restraint rotary_restraint(std::int32_t element) const override;
   void set_reach(const NodalMotion& motion, std::span<double> history) override;
