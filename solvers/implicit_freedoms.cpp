@@ -78,12 +78,14 @@ std::vector<Freedoms> used_freedoms(const Analysis& analysis) {
 }
 
 void refuse_loads_on_nothing(const Analysis& analysis, const std::vector<Freedoms>& used) {
+  const auto& step = analysis.model.steps[analysis.current.step];
+  if (std::holds_alternative<FrequencyProcedure>(step.procedure)) return;  // its loads are those of the state, and move nothing
   auto acted_on = used;
   for (const auto& body : analysis.model.rigid_bodies) acted_on[body.reference_node].set();
   for (const auto& body : analysis.current.rigid_bodies)
     for (const auto& node : body.nodes) acted_on[node.node].set();
   std::vector<std::string> errors;
-  for (const auto& load : analysis.model.steps[analysis.current.step].concentrated_loads)
+  for (const auto& load : step.concentrated_loads)
     if (load.magnitude != 0.0 && !acted_on[load.node].test(load.dof))
       errors.push_back(fmt::format("{}: error: *CLOAD: nothing uses degree of freedom {} of node {} in step {}, neither an element nor a "
                                    "constraint, so that the load acts on nothing; take it away",
