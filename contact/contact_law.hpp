@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "master_surface.hpp"
 #include "math/dual.hpp"
@@ -17,6 +18,13 @@ struct PenaltyParameters {
   double stiffness = 0.0;     // force per length, normal, and the most that the tangential spring has
   double friction = 0.0;      // Coulomb's coefficient
   double elastic_slip = 0.0;  // stretch of the tangential spring at the limit of sticking; 0: as `stiffness` makes it
+  double shear_limit = std::numeric_limits<double>::infinity();  // of friction, a force
+
+  /// The force at which a point slips.
+  template <class T>
+  T sliding_limit(const T& pressure) const {
+    return -maximum(-(pressure * friction), T(-shear_limit));
+  }
 };
 
 /// Forces on the slave node, in the body frame.
@@ -42,7 +50,7 @@ inline void open(ContactPoint& point, const Vector3<double>& place) {
 template <class T>
 void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, const SurfacePoint<T>& nearest,
                   ContactPoint& point, ContactForce<T>& force) {
-  const T limit = force.pressure * parameters.friction;
+  const T limit = parameters.sliding_limit(force.pressure);
   T stiffness(parameters.stiffness);
   if (parameters.elastic_slip > 0.0 && value_of(limit) < parameters.stiffness * parameters.elastic_slip)
     stiffness = limit / parameters.elastic_slip;

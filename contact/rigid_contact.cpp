@@ -75,6 +75,7 @@ RigidContact::RigidContact(const Model& model, std::int32_t pair, const Domain& 
   if (contact.interaction >= 0) {
     const Interaction& interaction = model.interactions[contact.interaction];
     friction_ = interaction.friction;
+    shear_stress_limit_ = interaction.shear_stress_limit;
     elastic_slip_ = interaction.elastic_slip.value_or(0.0);
   }
   const SlaveNodes all = slave_nodes(model, contact);

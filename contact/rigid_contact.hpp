@@ -141,7 +141,7 @@ class RigidContact {
   /// Of the spring that `state` has.
   PenaltyParameters parameters(std::int32_t point, const ContactPoint& state) const {
     const double chosen = std::max(state.stiff_spring, state.implicit_spring);  // one of them is zero
-    return {chosen > 0.0 ? chosen : stiffness_[point], friction_, elastic_slip_};
+    return {chosen > 0.0 ? chosen : stiffness_[point], friction_, elastic_slip_, shear_stress_limit_ * area_[point]};
   }
   /// Force of a point whose history `state` is up to date.
   ContactForce<double> acting_force(std::int32_t point, const Vector3<double>& place, const ContactPoint& state) const;
@@ -163,7 +163,7 @@ class RigidContact {
   std::vector<std::int32_t> nodes_;  // in the order of their model rows
   std::vector<bool> owned_;
   std::vector<double> area_, stiffness_;
-  double friction_ = 0.0, elastic_slip_ = 0.0;
+  double friction_ = 0.0, elastic_slip_ = 0.0, shear_stress_limit_ = std::numeric_limits<double>::infinity();
 };
 
 }  // namespace balocco

@@ -94,7 +94,7 @@ void RigidContact::keep_force(std::int32_t i, const Vector3<double>& place, cons
   point.multiplier = acting.pressure + law.stiffness * nearest.distance;
   point.stiff_force = acting.pressure;
   point.stiff_friction = acting.friction.component;
-  const double stiffness = tangential_stiffness(law, friction_ * acting.pressure);
+  const double stiffness = tangential_stiffness(law, law.sliding_limit(acting.pressure));
   auto anchor = place - std::min(0.0, nearest.distance) * nearest.normal;
   if (stiffness > 0.0) anchor = anchor + (1.0 / stiffness) * acting.friction;
   point.anchor = anchor.component;
@@ -155,7 +155,7 @@ void RigidContact::advance_stiff_friction(std::int32_t point, const MasterFrame&
                                           const SurfacePoint<double>& nearest, double old_pressure,
                                           ContactPoint& state) const {
   const PenaltyParameters law = parameters(point, state);
-  const double limit = friction_ * state.stiff_force, old_limit = friction_ * old_pressure;
+  const double limit = law.sliding_limit(state.stiff_force), old_limit = law.sliding_limit(old_pressure);
   const Vector3<double> old_friction{state.stiff_friction};
   Vector3<double> friction{};
   if (state.stiff_force > 0.0) {
@@ -189,7 +189,8 @@ ContactForce<double> RigidContact::acting_force(std::int32_t point, const Vector
   contact.pressure = state.stiff_force;
   contact.normal = contact.pressure * surface_.nearest(place).normal;
   contact.friction = Vector3<double>{state.stiff_friction};
-  contact.tangential_stiffness = tangential_stiffness(parameters(point, state), friction_ * contact.pressure);
+  const auto law = parameters(point, state);
+  contact.tangential_stiffness = tangential_stiffness(law, law.sliding_limit(contact.pressure));
   return contact;
 }
 

@@ -263,8 +263,9 @@ void Writer::contact() {
   for (const auto& interaction : model_.interactions) {
     line("*SURFACE INTERACTION, NAME={}", quoted(interaction.name));
     if (interaction.friction != 0.0 || interaction.elastic_slip) {
-      line("*FRICTION{}\n{}",
+      line("*FRICTION{}{}\n{}",
            interaction.elastic_slip ? fmt::format(", ELASTIC SLIP={}", *interaction.elastic_slip) : "",
+           std::isfinite(interaction.shear_stress_limit) ? fmt::format(", TAUMAX={}", interaction.shear_stress_limit) : "",
            interaction.friction);
     }
     if (interaction.penalty_scale != 1.0) line("*SURFACE BEHAVIOR, PENALTY\n{}", interaction.penalty_scale);

@@ -34,7 +34,18 @@ void read_interaction(Builder& builder, const Block& block) {
   builder.model.interactions.push_back(std::move(interaction));
 }
 
+/// ROUGH: a point that is closed never slips.
+void read_rough_friction(Builder& builder, const Block& block) {
+  constexpr double never_slips = 1e12;
+  if (!block.lines.empty() || block.has("TAUMAX") || block.has("SLIP TOLERANCE") || block.has("ELASTIC SLIP"))
+    return builder.error(block, block.location, "ROUGH stands alone, without a coefficient and other parameters; take them away");
+  if (builder.connector_friction != nullptr)
+    return builder.error(block, block.location, "ROUGH is of surfaces; hold the connector with *CONNECTOR LOCK");
+  if (!builder.model.interactions.empty()) current_interaction(builder).friction = never_slips;
+}
+
 void read_friction(Builder& builder, const Block& block) {
+  if (block.has("ROUGH")) return read_rough_friction(builder, block);
   if (block.lines.empty()) return builder.error(block, block.location, "the coefficient is missing; add a data line");
   Row row(builder, block, block.lines[0]);
   const double coefficient = row.real_or(0, 0.0, "friction coefficient");
@@ -49,10 +60,16 @@ void read_friction(Builder& builder, const Block& block) {
     builder.connector_friction->coefficient = coefficient;
     if (block.has("SLIP TOLERANCE") || block.has("ELASTIC SLIP"))
       builder.error(block, block.location, "connectors stick exactly, without an elastic slip; remove the parameter");
+    if (block.has("TAUMAX")) builder.error(block, block.location, "TAUMAX is a stress of surfaces, which connectors do not have; remove it");
     return;
   }
   if (builder.model.interactions.empty()) return;  // the *CONNECTOR FRICTION above it is wrong, which has been told
   current_interaction(builder).friction = coefficient;
+  if (block.has("TAUMAX")) {
+    const double limit = block.real("TAUMAX", 0.0);
+    if (!(limit > 0.0)) return builder.error(block, block.location, "TAUMAX, the greatest shear stress, must be positive; correct it");
+    current_interaction(builder).shear_stress_limit = limit;
+  }
   if (block.has("SLIP TOLERANCE")) {
     const double tolerance = block.real("SLIP TOLERANCE", 0.0);
     if (!(tolerance > 0.0) || block.has("ELASTIC SLIP")) {
@@ -251,7 +268,7 @@ const RegisterKeyword interaction{
 const RegisterKeyword friction{{"FRICTION",
                                 Phase::definitions,
                                 Place::anywhere,
-                                {real("ELASTIC SLIP"), real("SLIP TOLERANCE")},
+                                {real("ELASTIC SLIP"), real("SLIP TOLERANCE"), real("TAUMAX"), flag("ROUGH")},
                                 read_friction,
                                 "SURFACE INTERACTION or CONNECTOR BEHAVIOR"}};
 const RegisterKeyword surface_behavior{{"SURFACE BEHAVIOR",

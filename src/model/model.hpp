@@ -232,6 +232,7 @@ struct Amplitude {
 struct Interaction {
   std::string name;
   double friction = 0.0;
+  double shear_stress_limit = std::numeric_limits<double>::infinity();  // of friction
   double penalty_scale = 1.0;             // multiplies the automatic normal stiffness
   std::optional<double> elastic_slip;     // slip at which sticking friction reaches its limit; none: automatic
   Location location;

@@ -12,7 +12,7 @@ foreach(case truss_stability rod_impact free_flight spun_block pendulum dzhanibe
              first_increment)
   explicit_case(explicit_cases ${case} 1 2)
 endforeach()
-foreach(case bouncing_plate touching_at_the_start pressed_block rubbing_block lifted_block velocities_set_once lost_energy blown_up_at_the_end past_the_end below_the_ground rigid_part)
+foreach(case bouncing_plate touching_at_the_start pressed_block rubbing_block limits_of_friction lifted_block velocities_set_once lost_energy blown_up_at_the_end past_the_end below_the_ground rigid_part)
   explicit_case(explicit_contact_cases ${case} 1 2)
 endforeach()
 foreach(case hard_hits hit_at_the_end crushed_block folded_corner)

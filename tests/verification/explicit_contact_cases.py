@@ -107,6 +107,24 @@ def rubbing_block(job):
     pressed_block(job, friction=0.5)
 
 
+def limits_of_friction(job):
+    """A block pressed on the ground and dragged along it: TAUMAX bounds what the ground pulls with, ROUGH lets nothing slip."""
+    deck = block(2, 1, 2, (5.0, 10.0, 5.0), "C3D8", friction=0.5)
+    held = "*BOUNDARY\n9000, 1, 6\nTOP, 2, 2, -0.5\nTOP, 1, 1, 2.\nALL, 3, 3\n"
+    drag = ("*STEP\n*DYNAMIC, EXPLICIT\n, 0.002\n*BOUNDARY\nTOP, 2, 2, -0.5\nALL, 3, 3\n*BOUNDARY, TYPE=VELOCITY\nTOP, 1, 1, 500.\n"
+            "*OUTPUT, HISTORY, TIME INTERVAL=1e-4\n*NODE OUTPUT, NSET=NREF\nRF\n*END STEP\n")
+    statics = "*STEP, NLGEOM\n*STATIC\n0.1, 1.\n" + held + "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=NREF\nRF\n*NODE OUTPUT, NSET=LOW\nU\n*END STEP\n"
+    job.run(deck.replace("*FRICTION", "*FRICTION, TAUMAX=0.1") + statics + drag)
+    pulls = job.history("node_9000", "RF")[1][-1]
+    check("the coefficient would allow more", float(0.5 * abs(pulls[1]) > 15.0), 1.0, 0.0)
+    check("statics: TAUMAX times the area", abs(pulls[0]), 0.1 * 100.0, 1e-6)
+    check("explicit: the same", np.abs(job.history("node_9000", "RF", 2)[1][5:, 0]).mean(), 10.0, 0.02)
+    job.run(deck.replace("*FRICTION\n0.5", "*FRICTION, ROUGH") + statics + drag)
+    slid = max(abs(job.history("node_%d" % n, "U")[1][-1, 0]) for n in (1, 2, 3))
+    check("rough: the sole stays where it came down, but for its springs", slid, 0.0, 0.03 * 2.0)
+    check("and is pulled harder than any coefficient would have it", float(abs(job.history("node_9000", "RF")[1][-1, 0]) > 40.0), 1.0, 0.0)
+
+
 def lifted_block(job):
     """Pressed by statics, lifted and pressed again explicitly: nothing pushes across a gap, and the force comes back."""
     rubber = "*HYPERELASTIC, NEO HOOKE\n0.5, 0.1"
@@ -231,7 +249,7 @@ def rigid_part(job):
     check("a run that resumes", float(np.isfinite(job.history("energy", "ETOTAL", 3)[1]).all()), 1.0, 0.0)
 
 
-CASES = {case.__name__: case for case in (bouncing_plate, hard_hits, touching_at_the_start, hit_at_the_end, pressed_block, rubbing_block, lifted_block,
+CASES = {case.__name__: case for case in (bouncing_plate, hard_hits, touching_at_the_start, hit_at_the_end, pressed_block, rubbing_block, limits_of_friction, lifted_block,
                                           velocities_set_once, lost_energy, blown_up_at_the_end, crushed_block, folded_corner, past_the_end, below_the_ground,
                                           rigid_part)}
 
