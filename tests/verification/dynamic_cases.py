@@ -119,7 +119,7 @@ def impact(balocco, folder):
     deck = block(2, 3, 2, (10.0, 10.0, 10.0), "C3D8", height=0.05, law="*ELASTIC\n1000., 0.3", density=1e-9)
     energies = "*OUTPUT, HISTORY, FREQUENCY=1\n*ENERGY OUTPUT\nALLKE, ETOTAL\n*END STEP\n"
     lost = []
-    for ranks, increment in (("1", 2e-6), ("2", 5e-7)):
+    for ranks, increment in (("1", 2e-6), ("2", 1e-6)):
         job = Job("impact", balocco, ranks, folder)
         job.run(deck + "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 2, -2000.\n*STEP, NLGEOM, INC=100000\n*DYNAMIC, DIRECT\n%g, 1.6e-4\n" % increment + energies)
         total = job.history("energy", "ETOTAL")[1]
