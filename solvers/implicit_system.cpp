@@ -277,8 +277,8 @@ void ImplicitSystem::begin_increment() {
 void ImplicitSystem::commit() {
   analysis_.current.element_history = trial_history_;
   analysis_.current.contact = trial_contact_;
-  for (const auto pair : step_.active_contact_pairs)
-    if (dynamics_)  // nothing may push across a gap: that would give energy
+  if (dynamics_)  // nothing may push across a gap: that would give energy
+    for (const auto pair : step_.active_contact_pairs)
       analysis_.contacts[pair].lower_multipliers(analysis_.current.position.data(),
                                                  analysis_.current.rigid_bodies[analysis_.contacts[pair].master_body()],
                                                  analysis_.current.contact[pair]);

@@ -40,7 +40,6 @@ HourglassFlow HourglassFlow::of(const SolidMaterial& solid, const Material& mate
   const double lame = solid.stiffness[1], shear = solid.stiffness[21];
   flow.yield = FlowStress::of(material);
   flow.least_yield = flow.yield.least();
-  flow.shear = shear;
   flow.twice_shear = section.hourglass_scale * 2.0 * shear;
   flow.plane_ratio = lame / (lame + 2.0 * shear);
   flow.young = section.hourglass_scale * shear * (3.0 * lame + 2.0 * shear) / (lame + shear);
@@ -135,7 +134,7 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
   if constexpr (hourglass == Hourglass::flowing) {
     const HourglassTrial<Pack> trial(c, q, shape);
     const Pack hardened = component(own_history + HourglassFlow::hardening);
-    const auto [factor, hardening] = hourglass_return(CentreStress<Pack>(stress, f), Pack(component(flow_.plastic_strain) + hardened), c,
+    const auto [factor, hardening] = hourglass_return(centre_mises(stress, f), Pack(component(flow_.plastic_strain) + hardened), c,
                                                       trial.stress, trial.energy, volume, flow_);
     const auto change = shape_change(factor, q, invariant);
     q = flowed(factor, q);

@@ -83,7 +83,7 @@ class ReducedBrick final : public ElementGroup {
   HourglassReturn<T> return_of(const HexahedronCoefficients<T>& c, const Matrix3<T>& f, const Matrix3<T>& stress,
                                const HourglassTrial<T>& trial, const LaneReference& reference, const auto& history) const {
     const T plastic_strain = history(flow_.plastic_strain) + history(own_history + HourglassFlow::hardening);
-    return hourglass_return(CentreStress<T>(stress, f), plastic_strain, c, trial.stress, trial.energy,
+    return hourglass_return(centre_mises(stress, f), plastic_strain, c, trial.stress, trial.energy,
                             T(reference[brick_record::volume]), flow_);
   }
   template <class T>

@@ -32,7 +32,6 @@ struct HourglassFlow {
   int plastic_strain = -1;                 // PEEQ; -1: nothing yields
   int plastic_deformation = -1;            // Fp^-1 - 1
   int failure = -1;                        // FAILED; -1: nothing fails
-  double shear = 0.0;                      // modulus G of the centre's return
   FlowStress yield;
   double least_yield = 0.0;                // of all plastic strains
   double twice_shear = 0.0, plane_ratio = 0.0, young = 0.0;  // 2 G, nu / (1 - nu) and E of the hourglass, with its scale
@@ -41,19 +40,17 @@ struct HourglassFlow {
   bool active() const { return plastic_strain >= 0; }
 };
 
-/// Kirchhoff's stress of the centre.
 template <class T>
-struct CentreStress {
-  SymmetricTensor<T> deviator;
-  T mises;
+SymmetricTensor<T> deviator_of(const SymmetricTensor<T>& a) {
+  return a.plus_identity((-1.0 / 3.0) * trace(a));
+}
 
-  CentreStress(const Matrix3<T>& piola, const Matrix3<T>& f) {
-    const auto kirchhoff = symmetric_part(piola * transpose(f));
-    deviator = deviator_of(kirchhoff);
-    mises = square_root(1.5 * double_contraction(deviator, deviator) + std::numeric_limits<double>::min());
-  }
-  static SymmetricTensor<T> deviator_of(const SymmetricTensor<T>& a) { return a.plus_identity((-1.0 / 3.0) * trace(a)); }
-};
+/// Mises' measure of Kirchhoff's stress of the centre.
+template <class T>
+T centre_mises(const Matrix3<T>& piola, const Matrix3<T>& f) {
+  const auto deviator = deviator_of(symmetric_part(piola * transpose(f)));
+  return square_root(1.5 * double_contraction(deviator, deviator) + std::numeric_limits<double>::min());
+}
 
 /// Root mean square, over the eight points, of mises' measure of the hourglass stresses. Deviators there are the linear ones of the
 /// classes zeta, eta, xi and the bilinear ones of mode xi eta zeta, each with a pattern of signs orthogonal to all others.
@@ -62,8 +59,8 @@ T hourglass_mises(const HexahedronCoefficients<T>& c, const std::array<T, 12>& s
   constexpr double place = 2.0 / 3.0;
   const auto dyad = [&](int a, int b) {
     const auto component = [&](int i, int j) { return 0.5 * (c[a][i] * c[b][j] + c[b][i] * c[a][j]); };
-    return CentreStress<T>::deviator_of(
-        {{component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(0, 2), component(1, 2)}});
+    return deviator_of(SymmetricTensor<T>{
+        {component(0, 0), component(1, 1), component(2, 2), component(0, 1), component(0, 2), component(1, 2)}});
   };
   const std::array<SymmetricTensor<T>, 3> along{dyad(0, 0), dyad(1, 1), dyad(2, 2)};
   const T linear = (3.0 * place) / volume, bilinear = (9.0 * place * place) / volume;
@@ -89,18 +86,18 @@ struct HourglassReturn {
 /// What of a trial hourglass stress (mises) the hourglass carries: its yield stress, that of the curve at `plastic_strain` (of the centre
 /// and of the hourglass before the increment) or the centre's own; less what the centre takes of it; and what it hardens by.
 template <class T>
-T hourglass_limit(const CentreStress<T>& centre, const T& plastic_strain, const T& trial, const HourglassFlow& flow) {
+T hourglass_limit(const T& centre, const T& plastic_strain, const T& trial, const HourglassFlow& flow) {
   const auto curve = flow.yield.static_curve(value_of(plastic_strain));
-  const T yield = maximum(centre.mises, T(curve.value) + T(curve.slope) * (plastic_strain - T(value_of(plastic_strain))));
-  const T share = centre.mises / yield, left = 1.0 - HourglassFlow::taken * (share * share);
+  const T yield = maximum(centre, T(curve.value) + T(curve.slope) * (plastic_strain - T(value_of(plastic_strain))));
+  const T share = centre / yield, left = 1.0 - HourglassFlow::taken * (share * share);
   const T before = left * yield, slope = left * T(curve.slope);
   return before + slope / (flow.young + slope) * maximum(trial - before, T(0.0));
 }
 
-/// The return of the trial hourglass stresses to what they may be beside the stress of the centre. `plastic_strain`: of centre and
+/// The return of the trial hourglass stresses to what they may be beside `centre`, the mises stress there. `plastic_strain`: of centre and
 /// hourglass. `energy`: of the trial stresses.
 template <class T>
-HourglassReturn<T> hourglass_return(const CentreStress<T>& centre, const T& plastic_strain, const HexahedronCoefficients<T>& c,
+HourglassReturn<T> hourglass_return(const T& centre, const T& plastic_strain, const HexahedronCoefficients<T>& c,
                                     const std::array<T, 12>& stress, const T& energy, const T& volume, const HourglassFlow& flow) {
   // Six patterns, of each of which mises^2 <= 4 E energy / volume at the points.
   const T reach = square_root((24.0 * flow.young) * energy / volume + std::numeric_limits<double>::min());
