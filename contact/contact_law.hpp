@@ -34,6 +34,7 @@ struct ContactForce {
   T pressure{};  // normal force, >= 0
   Vector3<T> normal{}, friction{};
   double tangential_stiffness = 0.0;
+  Vector3<double> slip{};  // by which the anchor gives way
 };
 
 /// An open point has no multiplier; its anchor follows it, so that friction knows how it moved in the increment in
@@ -69,6 +70,7 @@ void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, 
     force.friction = -(limit / length) * stretch;
     kept = reach / value_of(length);
     const double slip = value_of(length) - reach;
+    force.slip = {(1.0 - kept) * value_of(stretch[0]), (1.0 - kept) * value_of(stretch[1]), (1.0 - kept) * value_of(stretch[2])};
     point.slip += slip;
     point.frictional_dissipation += value_of(limit) * slip;
   }

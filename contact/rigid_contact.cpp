@@ -161,7 +161,8 @@ void RigidContact::add_master_resultant(const double* position, const RigidBodyS
 }
 
 ContactTangent RigidContact::linearize(std::int32_t point, const double* position, const RigidBodyState& master,
-                                       const ContactPoint& old, ContactPoint& updated, bool sticks) const {
+                                       const ContactPoint& old, ContactPoint& updated, bool sticks,
+                                       const Vector3<double>& last_slip) const {
   using Scalar = Dual<9>;
   const MasterFrame frame(master);
   const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[point]));
@@ -175,9 +176,9 @@ ContactTangent RigidContact::linearize(std::int32_t point, const double* positio
   const auto place = constant<Scalar>(frame.inverse) * (moved - cross(spin, moved));
   updated = old;
   auto contact = contact_force(surface_, parameters(point, old), place, updated);
-  if (sticks && contact.closed) stick(place, surface_.nearest(values(place)).normal, contact);
-  ContactTangent tangent{.node = nodes_[point], .closed = contact.closed};
+  ContactTangent tangent{.node = nodes_[point], .closed = contact.closed, .slip = frame.rotation * contact.slip};
   if (!contact.closed) return tangent;
+  if (sticks || dot(last_slip, tangent.slip) < 0.0) stick(place, surface_.nearest(values(place)).normal, contact);
   const auto global = constant<Scalar>(frame.rotation) * (contact.normal + contact.friction);
   const auto turned = global + cross(spin, global);
   for (int i = 0; i < 3; ++i) {

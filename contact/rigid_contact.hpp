@@ -32,6 +32,7 @@ struct ContactTangent {
   bool closed = false;
   std::array<double, 3> force{};           // on the slave node; the master gets the opposite at the same place
   std::array<double, 3 * 9> derivative{};  // d force / d (node position 3, master position 3, master spin 3), row-major
+  Vector3<double> slip{};                  // over the increment, in global directions
 };
 
 /// How a slave node answers to a force in an explicit cycle: as a free mass, but for the directions in which its velocity over
@@ -107,9 +108,10 @@ class RigidContact {
                             const std::vector<ContactPoint>& points, std::span<ExactSum, 6> force_and_moment) const;
 
   /// Implicit: force and derivative of one point whose history at the start of the increment is `old`; `updated`
-  /// receives the history. `sticks`: the derivative is that of a point that sticks, sliding or not, about the same force.
+  /// receives the history. `sticks`: the derivative is that of a point that sticks, sliding or not, about the same force; so it is
+  /// where friction turned back since `last_slip`: the point went past the place where it sticks, of which sliding tells nothing.
   ContactTangent linearize(std::int32_t point, const double* position, const RigidBodyState& master, const ContactPoint& old,
-                           ContactPoint& updated, bool sticks = false) const;
+                           ContactPoint& updated, bool sticks = false, const Vector3<double>& last_slip = {}) const;
 
   /// Augmented Lagrange: adds the spring's part to the multipliers, and changes nothing else, so that `points` may be
   /// the history at the start of the increment that is being solved. @return greatest gap or penetration of a closed

@@ -238,6 +238,8 @@ void ImplicitSystem::add_follower_stiffness(const AssemblyRequest& request) {
 void ImplicitSystem::add_contact(bool sticks) {
   const auto closed_before = trial_contact_;
   contact_force_.assign(residual_.size(), 0.0);
+  sticking_.assign(residual_.size(), 0.0);
+  turned_points_ = 0;
   for (const auto pair : step_.active_contact_pairs)
     for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) add_contact_point(pair, point, sticks);
   std::int64_t closed = 0, changed = 0;
@@ -248,6 +250,7 @@ void ImplicitSystem::add_contact(bool sticks) {
       closed += now ? 1 : 0;
       changed += now != before ? 1 : 0;
     }
+  turned_points_ = analysis_.communicator.sum(turned_points_);
   closed_points_ = analysis_.communicator.sum(closed);
   changed_points_ = analysis_.communicator.sum(changed);
 }
@@ -257,8 +260,10 @@ void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point, bo
   const auto body = contact.master_body();
   const auto& master = analysis_.current.rigid_bodies[body];
   const double* position = analysis_.current.position.data();
+  auto& slips = slips_[pair][point];
   const auto tangent =
-      contact.linearize(point, position, master, start_contact_[pair][point], trial_contact_[pair][point], sticks);
+      contact.linearize(point, position, master, start_contact_[pair][point], trial_contact_[pair][point], sticks, slips.before);
+  slips.now = tangent.slip;
   const auto node = contact.nodes()[point];
   if (!analysis_.domain.owned[node]) return;
 
@@ -286,7 +291,11 @@ void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point, bo
       block_[9 * (6 + i) + column] = from_force[i] + from_arm[i];
     }
   }
-  stiffness_.add(std::array{map_.motion(node), map_.motion(reference), map_.spin(body)}, block_);
+  const std::array motions{map_.motion(node), map_.motion(reference), map_.spin(body)};
+  stiffness_.add(motions, block_);
+  if (!slips.turns_back()) return;
+  ++turned_points_;
+  stiffness_.add_product(motions, block_, slips.now.component, sticking_);
 }
 
 void ImplicitSystem::add_stabilization(const AssemblyRequest& request) {

@@ -119,6 +119,7 @@ bool ImplicitNewton::evaluate(const IncrementGoal& goal) {
   if (sound) {
     auto& product = system_.stiffness().product();
     system_.exchange().sum(product);
+    system_.exchange().sum(system_.sticking());
     const double faded = 1.0 - goal.step_time / step_.duration();
     const auto& map = system_.map();
     for (std::int32_t slot = 0; slot < map.slots(); ++slot)
@@ -205,9 +206,18 @@ bool ImplicitNewton::advance(const IncrementGoal& goal, NewtonResult& result) {
   correction_ = remaining_;
   system_.exchange().from_equations(solution_, correction_);
   ++result.iterations;
+  system_.begin_iteration();
   if (search_line(goal)) return true;
   result.reason = system_.trouble();
   return false;
+}
+
+/// Points whose friction turned back go to where their springs would hold them: next, the law tells whether they do.
+bool ImplicitNewton::solve_linear_equations() {
+  if (system_.turned_points() == 0) return solver_.solve(right_hand_side_, solution_);
+  auto right_hand_side = right_hand_side_;
+  for (std::size_t i = 0; i < right_hand_side.size(); ++i) right_hand_side[i] -= system_.sticking()[system_.map().owned_free_slots()[i]];
+  return solver_.solve(right_hand_side, solution_);
 }
 
 bool ImplicitNewton::solve(const IncrementGoal& goal, NewtonResult& result) {
@@ -216,7 +226,7 @@ bool ImplicitNewton::solve(const IncrementGoal& goal, NewtonResult& result) {
     result.reason = fmt::format("nothing resists a motion of {}", mechanism_);
     return false;
   }
-  const bool solved = solver_.solve(right_hand_side_, solution_);
+  const bool solved = solve_linear_equations();
   if (solved && !(goal.starts_step && result.iterations == 0)) return true;
   const auto where = solver_.mechanism();
   if (where.empty()) {
@@ -244,7 +254,7 @@ bool ImplicitNewton::solve_held_back(const IncrementGoal& goal) {
     if (!evaluate(goal)) return false;
   }
   for (int trial = 0; trial < most_trials; ++trial) {
-    if (solver_.solve(right_hand_side_, solution_)) {
+    if (solve_linear_equations()) {
       double largest = 0.0;
       for (std::size_t i = 0; i < solution_.size(); ++i)
         if (const auto slot = system_.map().owned_free_slots()[i]; !system_.map().is_multiplier(slot))
@@ -262,7 +272,7 @@ bool ImplicitNewton::stands_alone(const IncrementGoal& goal) {
   if (mechanism_.empty() || goal.damping > 0.0) return true;
   regularization_ = 0.0;
   evaluate(goal);
-  const bool solved = solver_.solve(right_hand_side_, solution_);
+  const bool solved = solve_linear_equations();
   const auto where = solver_.mechanism();
   if (!solved || !where.empty()) return false;
   mechanism_.clear();
@@ -296,6 +306,7 @@ bool ImplicitNewton::search_line(const IncrementGoal& goal) {
   };
   const auto before = work();
   descends_ = descends_ || circles();
+  const bool lets_stick = system_.turned_points() > 0;  // the residual here does not tell of that
   double factor = 1.0;
   bool sound = false;
   for (int trial = 0; trial < most_trials; ++trial) {
@@ -306,6 +317,7 @@ bool ImplicitNewton::search_line(const IncrementGoal& goal) {
       factor *= 0.5;
       continue;
     }
+    if (lets_stick) break;
     const auto after = work();
     const double ratio = before[0] != 0.0 ? after[0] / before[0] : 0.0;
     const bool better = after[1] <= before[1];

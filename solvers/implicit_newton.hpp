@@ -72,6 +72,7 @@ class ImplicitNewton {
   bool at_round_off(const Norms& now) const;
   void start(const IncrementGoal& goal);
   bool advance(const IncrementGoal& goal, NewtonResult& result);
+  bool solve_linear_equations();
   bool solve(const IncrementGoal& goal, NewtonResult& result);
   bool solve_held_back(const IncrementGoal& goal);
   bool stands_alone(const IncrementGoal& goal);

@@ -35,6 +35,16 @@ void ImplicitStiffness::add(std::span<const NodeMotion> motions, std::span<const
   }
 }
 
+void ImplicitStiffness::add_product(std::span<const NodeMotion> motions, std::span<const double> block, const Point& motion,
+                                    std::vector<double>& product) const {
+  const auto width = 3 * motions.size();
+  for (std::size_t a = 0; a < motions.size(); ++a)
+    for (int l = 0; l < motions[a].count; ++l)
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j)
+          product[motions[a].slots[l]] += weight_ * motions[a].direction[l][i] * block[(3 * a + i) * width + j] * motion[j];
+}
+
 void ImplicitStiffness::record(std::span<const std::int32_t> slots) {
   for (const auto i : slots)
     for (const auto j : slots)

@@ -270,8 +270,15 @@ void ImplicitSystem::begin_increment() {
   trial_history_ = analysis_.current.element_history;
   start_contact_ = analysis_.current.contact;
   trial_contact_ = analysis_.current.contact;
+  slips_.resize(start_contact_.size());
+  for (std::size_t pair = 0; pair < slips_.size(); ++pair) slips_[pair].assign(start_contact_[pair].size(), {});
   guides_.begin_increment(analysis_);
   guides_.guess(analysis_);
+}
+
+void ImplicitSystem::begin_iteration() {
+  for (auto& points : slips_)
+    for (auto& point : points) point.before = point.turns_back() ? Vector3<double>{} : point.now;
 }
 
 void ImplicitSystem::commit() {

@@ -50,6 +50,10 @@ class ImplicitSystem {
   const std::vector<double>& external() const { return external_; }
   /// Average magnitude of the nodal forces of the elements, over all ranks.
   double average_force() const { return average_force_; }
+  /// Points of all ranks whose friction turned back since the last correction. The stiffness has them stick.
+  std::int64_t turned_points() const { return turned_points_; }
+  /// This rank's part of what the residual of each slot would have more if their springs held them wherever they are.
+  std::vector<double>& sticking() { return sticking_; }
   /// Contact points of all ranks that are closed in the trial, and how many changed since the last assembly.
   std::int64_t closed_points() const { return closed_points_; }
   std::int64_t changed_points() const { return changed_points_; }
@@ -78,6 +82,8 @@ class ImplicitSystem {
 
   /// Marks the current positions as the start of an increment, and forgets trial histories.
   void begin_increment();
+  /// Tells that the last assembly is where the next correction starts from.
+  void begin_iteration();
   const Configuration& start_of_increment() const { return start_; }
   /// Makes the trial's histories those of the state.
   void commit();
@@ -165,13 +171,20 @@ class ImplicitSystem {
   Configuration start_;
   std::vector<std::vector<double>> trial_history_;
   std::vector<std::vector<ContactPoint>> start_contact_, trial_contact_;
+  /// Slips of a contact point in the last assembly, and where the last correction started from: zero if that had it stick.
+  struct Slips {
+    Vector3<double> now{}, before{};
+    bool turns_back() const { return dot(now, before) < 0.0; }
+  };
+  std::vector<std::vector<Slips>> slips_;
+  std::vector<double> sticking_;
   std::unique_ptr<AlphaMethod> dynamics_;
   std::vector<double> residual_, external_, mass_, lever_;
   std::vector<double> forces_, contact_force_, inertia_;  // dynamic
   double model_size_ = 1.0;
   double average_force_ = 0.0;
   std::array<double, 2> force_sum_{};  // of magnitudes, and how many
-  std::int64_t closed_points_ = 0, changed_points_ = 0;
+  std::int64_t closed_points_ = 0, changed_points_ = 0, turned_points_ = 0;
   std::int64_t inverted_element_ = -1;
   std::string trouble_;
   std::vector<NodeMotion> motions_;                                        // scratch

@@ -1,5 +1,5 @@
 # Static cases with known answers, each on one and on two ranks through the whole program.
-verification_cases(static 120 patch_c3d8r patch_c3d8 elastica rollup rotation release linear hencky road touchdown unloading
+verification_cases(static 120 patch_c3d8r patch_c3d8 elastica rollup rotation release linear hencky road touchdown unloading turning_back
                    far_reference ring flat_sheet mechanism contradiction)
 
 foreach(case stabilized snap_through velocity gravity moment pinned petsc interrupted linear_interrupted)

@@ -258,6 +258,27 @@ def road(runner):
     close(results.at(9001, "RF", 3)[2], 0.8, 1e-7, "load while sliding")
 
 
+def turning_back(runner):
+    """The road slides under a rubber foot and back in increments of given size: guesses that go on forwards take nodes past the places
+    where they stick, some here, some there, and Newton's method must find these all the same. At both ends all nodes slide."""
+    deck = brick((6, 6, 2), (1.0, 1.0, 0.5), transform=lambda x, y, z: (x - 0.5, y - 0.5, z + 0.01))
+    deck.sets["TOP"] = deck.where(lambda x, y, z: z > 0.505)
+    deck.add_node(9002, 0.0, 0.0, 0.51)
+    deck.add("*RIGID BODY, REF NODE=9002, TIE NSET=TOP")
+    deck.add(ELASTIC.format(young=10.0, poisson=0.45))
+    deck.add("*ELSET, ELSET=BOTTOM, GENERATE\n1, 36\n*SURFACE, NAME=FOOT, TYPE=ELEMENT\nBOTTOM, S1")
+    deck.add(ROAD.format(start=-5.0, end=5.0, friction=0.5) + "*AMPLITUDE, NAME=BACK\n0., 0., 0.5, 0.3, 1., 0.05")
+    deck.add("*STEP, NLGEOM\n*STATIC\n0.2, 1., 1e-5, 0.5\n*BOUNDARY\n9001, 1, 6\n9002, 1, 2\n9002, 4, 6\n9002, 3, 3, -0.06" + OUTPUT +
+             "*END STEP")
+    deck.add("*STEP, NLGEOM\n*STATIC, DIRECT\n0.25, 1.\n*BOUNDARY, AMPLITUDE=BACK\n9001, 1, 1, 1." + OUTPUT + "*END STEP")
+    for ranks in (1, 2):
+        results = runner.run("turning_back", deck, ranks)
+        for frame, sense in ((2, 1.0), (4, -1.0)):
+            force = results.at(9001, "RF", 2, frame)
+            assert force[2] > 0.3, "the foot is pressed"
+            close(force[0], sense * 0.5 * force[2], 1e-2, "sliding friction mu N")
+
+
 def ring(runner):
     """*TRANSFORM, TYPE=C: a ring of trusses whose nodes all move outwards by one hundredth: axial force E A ln(1.01) or its like,
     and equal radial reactions 2 F sin(half the angle)."""
@@ -349,6 +370,7 @@ CASES = {
     "touchdown": touchdown,
     "unloading": unloading,
     "far_reference": far_reference,
+    "turning_back": turning_back,
     "ring": ring,
     "flat_sheet": flat_sheet,
     "mechanism": mechanism,
