@@ -55,10 +55,10 @@ class ShellGroup final : public ElementGroup {
     std::array<T, 3> membrane, curvature;
   };
 
-  /// A point of the surface: its strains and the thickness there.
+  /// A point of the surface: its strains, the thickness there, and how much of it bears transverse shear.
   struct Place {
     SurfaceStrain<double> strain;
-    double thickness;
+    double thickness, shear_thickness;
   };
 
   int layers() const { return section_.layers.empty() ? 1 : static_cast<int>(section_.layers.size()); }

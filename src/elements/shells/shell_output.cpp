@@ -119,9 +119,12 @@ void ShellGroup<corners, points>::output_at(std::string_view name, std::int32_t 
   const int point = integration_point / layers();
   const auto here = strain_at<double>(data, point, strain);
   const double h = data[(Record::point + point * Record::point_size + 1) * pack_size];
+  double share = 1.0;
+  if constexpr (corners == 3) share = data[Record::shear_share * pack_size];
+  const Place at{here, h, share * h};
   const auto [variable, index] = request(name, integration_point % layers(), layers());
-  if (layer_components(section_, variable) > 0) return layer_output(variable, point, index, {here, h}, history, values);
-  section_output(variable, point, {here, h}, middle_shear<corners>(data, strain.shear), history, values);
+  if (layer_components(section_, variable) > 0) return layer_output(variable, point, index, at, history, values);
+  section_output(variable, point, at, middle_shear<corners>(data, strain.shear), history, values);
 }
 
 template <int corners, int points>
@@ -188,8 +191,8 @@ void ShellGroup<corners, points>::section_output(std::string_view variable, int 
     values[1] = turned[1];
     values[2] = turned[3];
     if (variable == "SF") {
-      values[3] = at.thickness * (section_.shear[0] * shear[0] + section_.shear[2] * shear[1]);
-      values[4] = at.thickness * (section_.shear[2] * shear[0] + section_.shear[1] * shear[1]);
+      values[3] = at.shear_thickness * (section_.shear[0] * shear[0] + section_.shear[2] * shear[1]);
+      values[4] = at.shear_thickness * (section_.shear[2] * shear[0] + section_.shear[1] * shear[1]);
     }
   }
 }

@@ -23,7 +23,8 @@ struct ShellRecord : ShellLayout<corners> {
   static constexpr int tension = eigenvalue + 1;                  // squared frequency by a unit of stress
   static constexpr int viscosity = tension + 1;                   // thickness * density * wave speed * length
   static constexpr int dilatation = viscosity + 1;                // squared frequency by a unit of surface modulus
-  static constexpr int size = dilatation + 1;
+  static constexpr int shear_share = dilatation + 1;              // triangles: part of the shear stiffness that they keep
+  static constexpr int size = shear_share + (corners == 3 ? 1 : 0);
 };
 
 struct ShellHourglassOptions {
