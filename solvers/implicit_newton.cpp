@@ -18,6 +18,9 @@ constexpr int discontinuous_iterations = 12;
 constexpr double penetration_tolerance = 1e-3, passing_penetration_tolerance = 2e-3;
 constexpr int most_augmentations = 12;
 
+/// By how much the residual may grow where friction turns back: the next correction has that stick.
+constexpr double turning_growth = 4.0;
+
 /// Corrections of a structure that is held back are at most this part of the model's size.
 constexpr double longest_held_back = 0.02;
 
@@ -317,8 +320,9 @@ bool ImplicitNewton::search_line(const IncrementGoal& goal) {
       factor *= 0.5;
       continue;
     }
-    if (lets_stick) break;
     const auto after = work();
+    const bool turns = lets_stick || system_.turned_points() > 0;
+    if (turns && after[1] <= turning_growth * turning_growth * before[1]) break;
     const double ratio = before[0] != 0.0 ? after[0] / before[0] : 0.0;
     const bool better = after[1] <= before[1];
     if (controls_.line_search ? std::abs(ratio) <= 0.25 : (better || (!descends_ && std::abs(ratio) <= 0.9))) break;
@@ -367,7 +371,8 @@ void ImplicitNewton::log_iteration(const NewtonResult& result, const Norms& now)
       fmt::format("    iteration {:2}: residual {:.3e} ({:.2e} of the forces), correction {:.3e}", result.iterations,
                   now.residual, now.reference > 0.0 ? now.residual / now.reference : 0.0, largest_correction_);
   if (system_.has_contact())
-    line += fmt::format(", contact {} closed, {} changed", system_.closed_points(), system_.changed_points());
+    line += fmt::format(", contact {} closed, {} changed, {} turned back", system_.closed_points(), system_.changed_points(),
+                        system_.turned_points());
   observer_.log(line);
 }
 
