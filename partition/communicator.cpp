@@ -86,7 +86,7 @@ void Communicator::maximum(std::span<double> values) const {
 void Communicator::sum(std::span<ExactSum> sums) const {
   // An accumulator is nothing but its words, so that an array of them travels as it lies.
   static_assert(sizeof(ExactSum) == ExactSum::word_count * sizeof(std::int64_t));
-  if (sums.empty()) return;
+  if (sums.empty() || size_ == 1) return;
   MPI_Allreduce(MPI_IN_PLACE, sums.front().words().data(), static_cast<int>(sums.size() * ExactSum::word_count),
                 MPI_INT64_T, MPI_SUM, handle_);
 }

@@ -186,8 +186,8 @@ void RigidDynamics::add_body_forces(const Analysis& analysis, const NodalForces&
     if (!owned) continue;
     if (turns)
       for (int c = 0; c < 3; ++c) sums[3 + c].add(forces.moment[4 * static_cast<std::ptrdiff_t>(node) + c]);
-    const double* f = forces.force + 4 * static_cast<std::ptrdiff_t>(node);
-    const Vector3<double> nodal{{f[0], f[1], f[2]}};
+    const auto nodal = vector_of(forces.force + 4 * static_cast<std::ptrdiff_t>(node));
+    if (nodal.component == Point{}) continue;  // as of many where constraints alone pull
     const auto moment = cross(rotation * vector_of(offset), nodal);
     for (int c = 0; c < 3; ++c) {
       sums[c].add(nodal[c]);

@@ -58,32 +58,51 @@ class ExactSum {
   /// The sum, rounded once (to nearest, ties to even), so that it scales with every power of two; not a number if any addend was not finite.
   double value() const {
     if (words_[digit_count] != 0) return std::numeric_limits<double>::quiet_NaN();
+    const auto [bottom, last] = digits_in_use();
     auto digits = words_;
-    const bool negative = carry(digits) < 0;
+    const bool negative = carry(digits, bottom, last) < 0;
     if (negative) {
-      for (auto& digit : digits) digit = -digit;
-      carry(digits);
+      for (int i = bottom; i <= last; ++i) digits[i] = -digits[i];
+      carry(digits, bottom, last);
     }
-    int top = digit_count - 1;
-    while (top > 0 && digits[top] == 0) --top;
+    int top = last;
+    while (top > bottom && digits[top] == 0) --top;
     // Three digits hold at least 65 bits from the first that is set; what lies below only tells how a tie is rounded.
     unsigned __int128 leading = 0;
     for (int i = top; i > top - 3; --i) leading = leading << 32 | static_cast<std::uint64_t>(i >= 0 ? digits[i] : 0);
-    for (int i = top - 3; i >= 0; --i)
+    for (int i = top - 3; i >= bottom; --i)
       if (digits[i] != 0) leading |= 1U;
     const double sum = std::ldexp(static_cast<double>(leading), 32 * (top - 2) - bias);
     return negative ? -sum : sum;
   }
 
  private:
-  /// Brings every digit but the highest into [0, 2^32). @return the highest, which has the sign of the sum.
-  static std::int64_t carry(std::array<std::int64_t, word_count>& digits) {
-    for (int i = 0; i + 1 < digit_count; ++i) {
+  struct Range {
+    int first, last;
+  };
+  /// Found by eights: most of them are empty. The last digit is left for carries.
+  Range digits_in_use() const {
+    constexpr int at_once = 8;
+    const auto is_empty = [&](int first) {
+      std::int64_t bits = 0;
+      for (int i = first; i < first + at_once; ++i) bits |= words_[i];
+      return bits == 0;
+    };
+    constexpr int last_eight = digit_count - at_once;
+    int first = 0, last = last_eight;
+    while (first < last_eight && is_empty(first)) first = std::min(first + at_once, last_eight);
+    while (last > first && is_empty(last)) last = std::max(last - at_once, first);
+    return {first, std::min(last + at_once, digit_count - 1)};
+  }
+
+  /// Brings every digit but the last into [0, 2^32). @return the last, which has the sign of the sum.
+  static std::int64_t carry(std::array<std::int64_t, word_count>& digits, int first, int last) {
+    for (int i = first; i < last; ++i) {
       const std::int64_t excess = digits[i] >> 32;
       digits[i] -= excess * (std::int64_t{1} << 32);
       digits[i + 1] += excess;
     }
-    return digits[digit_count - 1];
+    return digits[last];
   }
 
   static constexpr int bias = 1152;  // a multiple of 32 beyond the lowest bit of a subnormal double
