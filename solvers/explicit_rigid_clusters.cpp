@@ -20,6 +20,10 @@ Quaternion<double> orientation(const Analysis& analysis, std::int32_t node) {
   return {q[0], q[1], q[2], q[3]};
 }
 
+struct Wrench {
+  Vector3<double> force, moment;
+};
+
 double trace(const Matrix3<double>& m) { return m(0, 0) + m(1, 1) + m(2, 2); }
 
 /// Adds factor * (a . a 1 - a a^T).
@@ -146,14 +150,15 @@ double RigidClusters::mobility(std::int32_t node, bool rotation) const {
 void RigidClusters::read_state(const Analysis& analysis, Cluster& cluster) {
   const auto& state = analysis.current;
   const auto first = orientation(analysis, cluster.ends.front().node);
-  const auto rotation = rotation_matrix(first);
+  cluster.rotation = rotation_matrix(first);
   for (auto& end : cluster.ends) {
     const std::size_t at = 4 * static_cast<std::size_t>(end.node);
-    end.arm = rotation * end.offset;
+    end.arm = cluster.rotation * end.offset;
     end.old_velocity = vector_of(&state.velocity[at]);
     end.old_spin = end.turn = {};
     if (!end.turns) continue;
     end.old_spin = vector_of(&state.angular_velocity[at]);
+    if (&end == &cluster.ends.front()) continue;
     const auto q = orientation(analysis, end.node);
     end.turn = rotation_vector(product(first, {q[0], -q[1], -q[2], -q[3]}));
   }
@@ -177,9 +182,9 @@ RigidClusters::Momenta RigidClusters::momenta(const Cluster& cluster, double ave
   return sum;
 }
 
-void RigidClusters::find_velocities(const Analysis& analysis, Cluster& cluster, double average) {
+void RigidClusters::find_velocities(Cluster& cluster, double average) {
   for (auto& end : cluster.ends) end.velocity = end.spin = {};
-  complete_momenta(cluster, momenta(cluster, average), rotation_matrix(orientation(analysis, cluster.ends.front().node)));
+  complete_momenta(cluster, momenta(cluster, average));
 }
 
 /// With the turn h w over the increment, s = sin / angle and c = (1 - cos) / angle^2 of it, and the inertias I of the masses and J of
@@ -203,8 +208,7 @@ bool RigidClusters::find_velocities(const Analysis& analysis, Cluster& cluster, 
     angular = angular - (end.mass / next) * cross(end.arm, end.gap) - (end.rotary / next) * end.turn;
   }
 
-  const auto rotation = rotation_matrix(orientation(analysis, cluster.ends.front().node));
-  const auto wanted = transpose(rotation) * angular;
+  const auto wanted = transpose(cluster.rotation) * angular;
   auto spin = cluster.mobility * wanted;
   double relative_change = 1.0;
   for (int iteration = 0; iteration < most_iterations && relative_change > resolution; ++iteration) {
@@ -217,24 +221,24 @@ bool RigidClusters::find_velocities(const Analysis& analysis, Cluster& cluster, 
     spin = spin + change;
     relative_change = dot(change, change) > 0.0 ? std::sqrt(dot(change, change) / dot(spin, spin)) : 0.0;
   }
-  spin = rotation * spin;
+  spin = cluster.rotation * spin;
   for (auto& end : cluster.ends) {
     end.velocity = (1.0 / next) * (change_by(next * spin, end.arm) + end.gap);
     if (end.turns) end.spin = spin + (1.0 / next) * end.turn;
   }
-  complete_momenta(cluster, sum, rotation);
+  complete_momenta(cluster, sum);
   return relative_change < largest_change;
 }
 
 /// Gives the cluster the rest of its momenta: of the angular one what rounding has left, which would add up over increments.
-void RigidClusters::complete_momenta(Cluster& cluster, const Momenta& sum, const Matrix3<double>& rotation) {
+void RigidClusters::complete_momenta(Cluster& cluster, const Momenta& sum) {
   Momenta rest = sum;
   for (const auto& end : cluster.ends) {
     rest.linear = rest.linear - end.mass * end.velocity;
     rest.angular = rest.angular - end.mass * cross(end.arm, end.velocity) - end.rotary * end.spin;
   }
   const auto path = (1.0 / cluster.mass) * rest.linear;
-  const auto spin = rotation * (cluster.mobility * (transpose(rotation) * rest.angular));
+  const auto spin = cluster.rotation * (cluster.mobility * (transpose(cluster.rotation) * rest.angular));
   for (auto& end : cluster.ends) {
     end.velocity = end.velocity + path + cross(spin, end.arm);
     if (end.turns) end.spin = end.spin + spin;
@@ -244,7 +248,7 @@ void RigidClusters::complete_momenta(Cluster& cluster, const Momenta& sum, const
 void RigidClusters::make_velocities_consistent(Analysis& analysis) {
   for (auto& cluster : clusters_) {
     read_state(analysis, cluster);
-    find_velocities(analysis, cluster, 0.0);
+    find_velocities(cluster, 0.0);
   }
   set_velocities(analysis);
 }
@@ -254,7 +258,7 @@ void RigidClusters::add_resting_forces(const Analysis& analysis, const NodalForc
     read_state(analysis, cluster);
     read_loads(forces, cluster);
     for (auto& end : cluster.ends) end.old_velocity = end.old_spin = {};
-    find_velocities(analysis, cluster, 1.0);  // accelerations, from rest
+    find_velocities(cluster, 1.0);  // accelerations, from rest
     for (const auto& end : cluster.ends) {
       const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(end.node);
       for (int c = 0; c < 3; ++c) {
@@ -271,7 +275,7 @@ void RigidClusters::find_motion(Analysis& analysis, const Instant& instant, cons
     read_loads(forces, cluster);
     cluster.average = instant.average();
     if (instant.next == 0.0)
-      find_velocities(analysis, cluster, cluster.average);
+      find_velocities(cluster, cluster.average);
     else if (!find_velocities(analysis, cluster, cluster.average, instant.next)) {
       const auto& definition = analysis.model.constraints[cluster.arms.front().constraint];
       throw AnalysisError(fmt::format(
@@ -280,29 +284,27 @@ void RigidClusters::find_motion(Analysis& analysis, const Instant& instant, cons
           analysis.current.increment, analysis.current.total_time, definition.keyword,
           analysis.model.where({definition.file, definition.line})));
     }
-    store_multipliers(analysis, cluster);
   }
 }
 
 /// From the outermost ends inwards: what an arm exerts on the ends behind it is what they lack for their motion.
 void RigidClusters::store_multipliers(Analysis& analysis, const Cluster& cluster) {
-  lacking_.clear();
+  std::vector<Wrench> lacking;
   for (const auto& end : cluster.ends)
-    lacking_.push_back({(end.mass / cluster.average) * (end.velocity - end.old_velocity) - end.load,
-                       (end.rotary / cluster.average) * (end.spin - end.old_spin) - end.moment});
-  const auto rotation = rotation_matrix(orientation(analysis, cluster.ends.front().node));
+    lacking.push_back({(end.mass / cluster.average) * (end.velocity - end.old_velocity) - end.load,
+                      (end.rotary / cluster.average) * (end.spin - end.old_spin) - end.moment});
   for (std::size_t i = cluster.arms.size(); i-- > 0;) {
     const auto& arm = cluster.arms[i];
-    const auto [force, moment] = lacking_[arm.outer];
+    const auto [force, moment] = lacking[arm.outer];
     const auto lever = cluster.ends[arm.outer].arm - cluster.ends[arm.inner].arm;
     const Wrench at_inner{force, moment + cross(lever, force)};
-    lacking_[arm.inner] = {lacking_[arm.inner].force + at_inner.force, lacking_[arm.inner].moment + at_inner.moment};
+    lacking[arm.inner] = {lacking[arm.inner].force + at_inner.force, lacking[arm.inner].moment + at_inner.moment};
     const auto& joint = static_cast<const JointConstraint&>(*analysis.constraints[arm.constraint]);
     const std::span multipliers(&analysis.current.multiplier[analysis.first_constraint_row[arm.constraint]], joint.rows());
     if (arm.outer_is_second)
-      joint.find_multipliers(-1.0 * force, -1.0 * moment, rotation, multipliers);
+      joint.find_multipliers(-1.0 * force, -1.0 * moment, cluster.rotation, multipliers);
     else
-      joint.find_multipliers(at_inner.force, at_inner.moment, rotation, multipliers);
+      joint.find_multipliers(at_inner.force, at_inner.moment, cluster.rotation, multipliers);
   }
 }
 
@@ -317,7 +319,8 @@ void RigidClusters::set_velocities(Analysis& analysis) const {
 }
 
 void RigidClusters::add_to_output(Analysis& analysis) const {
-  for (const auto& cluster : clusters_)
+  for (const auto& cluster : clusters_) {
+    store_multipliers(analysis, cluster);
     for (const auto& end : cluster.ends) {
       const std::size_t at = 4 * static_cast<std::size_t>(end.node);
       for (int c = 0; c < 3; ++c) {
@@ -325,6 +328,7 @@ void RigidClusters::add_to_output(Analysis& analysis) const {
         if (end.turns) analysis.angular_acceleration[at + c] = (end.spin[c] - end.old_spin[c]) / cluster.average;
       }
     }
+  }
 }
 
 }  // namespace balocco

@@ -41,6 +41,7 @@ class RigidClusters {
   /// @throws AnalysisError where a cluster turns too far in an increment.
   void find_motion(Analysis& analysis, const Instant& instant, const NodalForces& forces);
   void set_velocities(Analysis& analysis) const;
+  /// Multipliers too: nothing else asks for them.
   void add_to_output(Analysis& analysis) const;
 
  private:
@@ -66,6 +67,7 @@ class RigidClusters {
     Matrix3<double> inertia{};   // of the masses, about their centre, at the start
     Matrix3<double> mobility{};  // inverse of it and the rotary inertias
     double average = 0.0;        // increment of the last motion
+    Matrix3<double> rotation{};  // at the instant
   };
   /// Momenta about the centre of mass.
   struct Momenta {
@@ -78,19 +80,14 @@ class RigidClusters {
   static void read_loads(const NodalForces& forces, Cluster& cluster);
   static Momenta momenta(const Cluster& cluster, double average);
   /// Velocities of a cluster that turns from where it stands, without an increment to come;
-  static void find_velocities(const Analysis& analysis, Cluster& cluster, double average);
+  static void find_velocities(Cluster& cluster, double average);
   /// and over the next one. @return false where the cluster turns too far in it.
   static bool find_velocities(const Analysis& analysis, Cluster& cluster, double average, double next);
-  static void complete_momenta(Cluster& cluster, const Momenta& sum, const Matrix3<double>& rotation);
-  void store_multipliers(Analysis& analysis, const Cluster& cluster);
+  static void complete_momenta(Cluster& cluster, const Momenta& sum);
+  static void store_multipliers(Analysis& analysis, const Cluster& cluster);
   const Cluster* cluster_of(std::int32_t node, bool rotation) const;
 
-  struct Wrench {
-    Vector3<double> force, moment;
-  };
-
   std::vector<Cluster> clusters_;
-  std::vector<Wrench> lacking_;  // scratch
 };
 
 }  // namespace balocco
