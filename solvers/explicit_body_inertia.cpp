@@ -208,7 +208,8 @@ double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, cons
 
 Matrix6 RigidDynamics::response(const Analysis& analysis, std::size_t index) const {
   const auto& body = bodies_[index];
-  return turned(transpose(body.axes), inertia(body, analysis.current.rigid_bodies[index]).inverse);
+  const auto& along_axes = inertia(body, analysis.current.rigid_bodies[index]).inverse;
+  return body.axes.component == Matrix3<double>::identity().component ? along_axes : turned(transpose(body.axes), along_axes);
 }
 
 Vector6 RigidDynamics::predicted_velocity(const Analysis& analysis, std::size_t index, const Instant& instant, const Vector6& more) const {

@@ -6,7 +6,7 @@ namespace balocco {
 
 void ExplicitLinkages::take_guides(const Analysis& analysis, System& system) const {
   for (const auto& member : system.members) {
-    if (analysis.constraints[member.constraint]->guide() == nullptr) continue;
+    if (!member.is_guide) continue;
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
       const auto& law = guides_.of(analysis.first_constraint_row[member.constraint] + member.rows[i]);
       system.holds[member.first_row + i] = law.holds();
@@ -18,12 +18,12 @@ void ExplicitLinkages::take_guides(const Analysis& analysis, System& system) con
 bool ExplicitLinkages::settle_guides(const Analysis& analysis, System& system, double next) {
   bool changed = false;
   for (const auto& member : system.members) {
-    const auto* guide = analysis.constraints[member.constraint]->guide();
-    if (guide == nullptr) continue;
+    if (!member.is_guide) continue;
+    const auto& guide = *analysis.constraints[member.constraint];
     places_.clear();
     for (std::size_t i = 0; i < member.nodes.size(); ++i) places_.push_back(place_after(analysis, system, member, i, next));
-    gaps_.resize(static_cast<std::size_t>(guide->rows()));
-    guide->gaps(places_, gaps_);
+    gaps_.resize(static_cast<std::size_t>(guide.rows()));
+    guide.gaps(places_, gaps_);
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
       const int row = member.rows[i];
       const auto place = analysis.first_constraint_row[member.constraint] + row;
@@ -38,7 +38,7 @@ void ExplicitLinkages::add_guide_work(const Analysis& analysis, Half half, doubl
   const auto velocity = half == Half::last ? &Mover::old_velocity : &Mover::velocity;
   for (const auto& system : systems_)
     for (const auto& member : system.members) {
-      if (analysis.constraints[member.constraint]->guide() == nullptr) continue;
+      if (!member.is_guide) continue;
       for (std::size_t i = 0; i < member.rows.size(); ++i) {
         const auto place = analysis.first_constraint_row[member.constraint] + member.rows[i];
         guides_.add_work(place, analysis.current.multiplier[place], 0.5 * increment * system.rate(member, i, velocity),

@@ -30,16 +30,23 @@ void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
   system.size = model_size(analysis.model);
   for (const auto index : linkage.constraints) {
     const auto& constraint = *analysis.constraints[index];
-    Member member{.constraint = index, .nodes = {}, .rows = {}, .movers = {}, .columns = {}, .places = {}, .gradient = {}, .answer = {}, .shared = {}};
+    Member member;
+    member.constraint = index;
+    member.is_guide = constraint.guide() != nullptr;
+    system.has_guides = system.has_guides || member.is_guide;
     for (std::size_t i = 0; i < constraint.nodes().size(); ++i)
       member.nodes.push_back(use_of(analysis, system, constraint.nodes()[i], constraint.turns(static_cast<int>(i))));
-    for (int row = 0; row < constraint.rows(); ++row) member.rows.push_back(row);
     const bool by_bodies = std::ranges::any_of(member.nodes, [&](const NodeUse& use) {
       return system.movers[use.translation].kind == Mover::Kind::body ||
              (use.rotation >= 0 && system.movers[use.rotation].kind != Mover::Kind::rotation);
     });
     system.is_linear = system.is_linear && constraint.is_linear() && !by_bodies;
-    system.members.push_back(std::move(member));
+    for (int row = 0; row < constraint.rows(); ++row) {
+      member.rows.push_back(row);
+      if (member.rows.size() < pack_size && row + 1 < constraint.rows()) continue;
+      system.members.push_back(member);
+      member.rows.clear();
+    }
   }
   list_columns(system);
   if (analysis.current.increment == 0) find_implied_rows(analysis, system);
@@ -137,9 +144,9 @@ void ExplicitLinkages::list_columns(System& system) const {
       use.column = place(use.translation);
       if (use.rotation >= 0) use.rotation_column = place(use.rotation) + (system.movers[use.rotation].kind == Mover::Kind::body ? 3 : 0);
     }
-    member.gradient.resize(member.rows.size() * member.columns.size());
+    member.gradient.resize(member.columns.size());
+    member.answer.resize(member.columns.size());
   }
-  system.row.assign(system.mover_of_column.size(), 0.0);
 }
 
 /// Rows that others imply would leave the multipliers without a single solution.
@@ -147,16 +154,15 @@ void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) con
   find_places(analysis, system);
   find_gradient(analysis, system);
   find_responses(analysis, system);
-  const auto is_guide = [&](const Member& member) { return analysis.constraints[member.constraint]->guide() != nullptr; };
   std::vector<SparseRow> rows;
   for (const auto& member : system.members)
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
       SparseRow row;
-      if (is_guide(member)) {  // they do not always hold
+      if (member.is_guide) {  // they do not always hold
         rows.push_back(row);
         continue;
       }
-      const double* const line = &member.gradient[i * member.columns.size()];
+      const auto line = [&](std::size_t column) { return member.gradient[column][static_cast<int>(i)]; };
       std::size_t k = 0;
       for (const auto m : member.movers) {
         const auto& mover = system.movers[m];
@@ -168,12 +174,12 @@ void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) con
         // Along the directions in which the mover is free; those of bodies and tensors by what they answer to.
         for (std::size_t d = 0; of_node && d < mover.directions.size(); ++d) {
           const auto& direction = mover.directions[d];
-          const double along = line[k] * direction[0] + line[k + 1] * direction[1] + line[k + 2] * direction[2];
+          const double along = line(k) * direction[0] + line(k + 1) * direction[1] + line(k + 2) * direction[2];
           row.emplace_back(mover.first + static_cast<int>(d), length(0) * along);
         }
         for (int a = 0; !of_node && a < mover.size; ++a) {
           double answer = 0.0;
-          for (int b = 0; b < mover.size; ++b) answer += mover.response(a, b) * line[k + b];
+          for (int b = 0; b < mover.size; ++b) answer += mover.response(a, b) * line(k + b);
           const double scale = mover.response(a, a) > 0.0 ? length(a) / mover.response(a, a) : 0.0;
           row.emplace_back(mover.first + a, scale * answer);
         }
@@ -185,7 +191,7 @@ void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) con
   std::size_t next = 0;
   for (const auto& member : system.members)
     for (const int row : member.rows)
-      if (implied[next++] && !is_guide(member)) analysis.current.implied_rows.push_back(analysis.first_constraint_row[member.constraint] + row);
+      if (implied[next++] && !member.is_guide) analysis.current.implied_rows.push_back(analysis.first_constraint_row[member.constraint] + row);
 }
 
 void ExplicitLinkages::drop_implied_rows(const Analysis& analysis, System& system) const {
@@ -193,8 +199,6 @@ void ExplicitLinkages::drop_implied_rows(const Analysis& analysis, System& syste
     std::erase_if(member.rows, [&](int row) {
       return std::ranges::count(analysis.current.implied_rows, analysis.first_constraint_row[member.constraint] + row) > 0;
     });
-    member.gradient.resize(member.rows.size() * member.columns.size());
-    member.answer.resize(member.gradient.size());
   }
 }
 
@@ -210,41 +214,60 @@ void ExplicitLinkages::number(System& system) const {
     mover.first_unknown = system.unknowns;
     system.unknowns += static_cast<int>(mover.directions.size());
   }
+  find_hub(system);
   list_shared_movers(system);
   system.solution.assign(static_cast<std::size_t>(system.unknowns), 0.0);
   system.residual.assign(static_cast<std::size_t>(system.unknowns + (system.hub >= 0 ? 6 : 0)), 0.0);
   system.holds.assign(static_cast<std::size_t>(system.rows), true);
 }
 
-void ExplicitLinkages::list_shared_movers(System& system) const {
-  struct Use {
-    std::size_t member, first;
-  };
-  std::vector<std::vector<Use>> uses(system.movers.size());
-  for (std::size_t index = 0; index < system.members.size(); ++index) {
-    std::size_t first = 0;
-    for (const auto m : system.members[index].movers) {
-      uses[m].push_back({index, first});
-      first += static_cast<std::size_t>(system.movers[m].size);
-    }
-  }
-  constexpr std::size_t many = 4;
-  std::size_t most = system.is_small() ? system.members.size() : many - 1;
-  for (std::size_t m = 0; m < uses.size(); ++m) {
-    if (system.movers[m].kind != Mover::Kind::body || uses[m].size() <= most) continue;
-    most = uses[m].size();
+void ExplicitLinkages::find_hub(System& system) const {
+  constexpr std::ptrdiff_t many = 4;
+  std::ptrdiff_t most = system.is_small() ? static_cast<std::ptrdiff_t>(system.members.size()) : many - 1;
+  for (std::size_t m = 0; m < system.movers.size(); ++m) {
+    const auto uses = std::ranges::count_if(
+        system.members, [&](const Member& member) { return std::ranges::binary_search(member.movers, static_cast<std::int32_t>(m)); });
+    if (system.movers[m].kind != Mover::Kind::body || uses <= most) continue;
+    most = uses;
     system.hub = static_cast<std::int32_t>(m);
   }
-  for (std::size_t m = 0; m < uses.size(); ++m)
-    for (std::size_t i = 0; i < uses[m].size(); ++i) {
-      auto& member = system.members[uses[m][i].member];
-      if (static_cast<std::int32_t>(m) == system.hub) {
-        member.hub_column = static_cast<std::ptrdiff_t>(uses[m][i].first);
-        continue;
+}
+
+void ExplicitLinkages::list_shared_movers(System& system) const {
+  struct Use {
+    std::int32_t member;
+    std::size_t first;
+  };
+  std::vector<std::vector<Use>> uses(system.movers.size());
+  std::vector<std::int32_t> sizes;
+  std::vector<BlockSolver::Pair> pairs;
+  const auto hub_block = static_cast<std::int32_t>(system.members.size());
+  for (auto& member : system.members) {
+    std::size_t first = 0;
+    for (const auto m : member.movers) {
+      uses[m].push_back({static_cast<std::int32_t>(sizes.size()), first});
+      if (m == system.hub) {
+        member.hub_column = static_cast<std::ptrdiff_t>(first);
+        pairs.push_back({static_cast<std::int32_t>(sizes.size()), hub_block});
       }
-      for (std::size_t j = i; j < uses[m].size(); ++j)
-        member.shared.push_back({uses[m][j].member, uses[m][i].first, uses[m][j].first, system.movers[m].size});
+      first += static_cast<std::size_t>(system.movers[m].size);
     }
+    sizes.push_back(static_cast<std::int32_t>(member.rows.size()));
+  }
+  if (system.hub >= 0) {
+    uses[system.hub].clear();
+    sizes.push_back(6);
+  }
+  for (const auto& list : uses)
+    for (const auto& use : list)
+      for (const auto& other : list) pairs.push_back({use.member, other.member});
+  system.blocks.lay_out(std::move(sizes), pairs, system.hub >= 0 ? 1 : 0);
+  for (std::size_t m = 0; m < uses.size(); ++m)
+    for (const auto& [member, first] : uses[m])
+      for (const auto& other : uses[m])
+        if (system.blocks.in_order(member, other.member))
+          system.members[member].shared.push_back({static_cast<std::size_t>(other.member), first, other.first, system.movers[m].size,
+                                                   system.blocks.place(member, other.member)});
   for (auto& member : system.members) std::ranges::stable_sort(member.shared, {}, &Shared::member);
 }
 
@@ -268,6 +291,17 @@ void ExplicitLinkages::take_over_clusters(InverseInertia& inverse) {
     inverse.rotary[node] = 0.0;
     turns_[node] = true;
   });
+}
+
+ExplicitLinkages::Company ExplicitLinkages::company(std::int32_t node, bool rotation) const {
+  const auto kind = rotation ? Mover::Kind::rotation : Mover::Kind::translation;
+  Company company{.nodes = clusters_.company(node, rotation), .bodies = {}};
+  for (const auto& system : systems_) {
+    if (std::ranges::none_of(system.movers, [&](const Mover& mover) { return mover.kind == kind && mover.index == node; })) continue;
+    for (const auto& mover : system.movers)
+      (mover.kind == Mover::Kind::body ? company.bodies : company.nodes).push_back(mover.index);
+  }
+  return company;
 }
 
 void ExplicitLinkages::report_singular(const Analysis& analysis, const System& system) const {

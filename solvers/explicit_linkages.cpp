@@ -21,6 +21,17 @@ void add_along(Vector6& six, double factor, const Point& direction) {
   for (int c = 0; c < 3; ++c) six[c] += factor * direction[c];
 }
 
+/// Greatest turn of the line from the first node to another, relative stretch included.
+double turn_of_lines(std::span<const NodePlace> before, std::span<const NodePlace> after, double shortest) {
+  double square = 0.0;
+  for (std::size_t i = 1; i < before.size(); ++i) {
+    const auto line = before[i].position - before[0].position, change = after[i].position - after[0].position - line;
+    const double length = dot(line, line);
+    if (length > shortest * shortest) square = std::max(square, dot(change, change) / length);
+  }
+  return std::sqrt(square);
+}
+
 constexpr int most_iterations = 8, most_passes = 16;
 /// Relative to the size of the model: what iterations must not leave.
 constexpr double largest_gap = 1e-3;
@@ -41,17 +52,16 @@ void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) c
     const auto& constraint = *analysis.constraints[member.constraint];
     gradient_.resize(static_cast<std::size_t>(constraint.rows() * constraint.columns()));
     constraint.gradient(member.places, gradient_);
-    std::ranges::fill(member.gradient, 0.0);
-    for (std::size_t row = 0; row < member.rows.size(); ++row) {
+    std::ranges::fill(member.gradient, Lanes{});
+    for (int row = 0; row < static_cast<int>(member.rows.size()); ++row) {
       const double* g = &gradient_[static_cast<std::size_t>(member.rows[row] * constraint.columns())];
-      double* const line = &member.gradient[row * member.columns.size()];
       for (const auto& use : member.nodes) {
-        for (int c = 0; c < 3; ++c) line[use.column + c] += g[c];
+        for (int c = 0; c < 3; ++c) member.gradient[use.column + c][row] += g[c];
         if (use.carried) {
           const auto moment = cross(use.arm, vector_of(g));
-          for (int c = 0; c < 3; ++c) line[use.column + 3 + c] += moment[c];
+          for (int c = 0; c < 3; ++c) member.gradient[use.column + 3 + c][row] += moment[c];
         }
-        for (int c = 0; c < 3 && use.rotation >= 0; ++c) line[use.rotation_column + c] += g[3 + c];
+        for (int c = 0; c < 3 && use.rotation >= 0; ++c) member.gradient[use.rotation_column + c][row] += g[3 + c];
         g += 6;
       }
     }
@@ -60,14 +70,15 @@ void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) c
 
 void ExplicitLinkages::find_constraint_forces(System& system) const {
   for (auto& mover : system.movers) mover.constraint_force = {};
-  std::ranges::fill(system.row, 0.0);
-  for (const auto& member : system.members)
-    for (std::size_t i = 0; i < member.rows.size(); ++i)
-      for (std::size_t k = 0; k < member.columns.size(); ++k)
-        system.row[member.columns[k]] += system.solution[member.first_row + i] * member.gradient[i * member.columns.size() + k];
-  for (auto& mover : system.movers)
-    for (int c = 0; c < mover.size; ++c) mover.constraint_force[c] = system.row[mover.first + c];
-  std::ranges::fill(system.row, 0.0);
+  for (const auto& member : system.members) {
+    Lanes multipliers;
+    for (std::size_t i = 0; i < member.rows.size(); ++i) multipliers[static_cast<int>(i)] = system.solution[member.first_row + i];
+    const Lanes* column = member.gradient.data();
+    for (const auto m : member.movers) {
+      auto& mover = system.movers[m];
+      for (int c = 0; c < mover.size; ++c) mover.constraint_force[c] += sum_of(multipliers.pack() * (column++)->pack());
+    }
+  }
 }
 
 void ExplicitLinkages::find_base(const Analysis& analysis, System& system, const Instant& instant, const NodalForces& forces) const {
@@ -94,7 +105,17 @@ void ExplicitLinkages::find_base(const Analysis& analysis, System& system, const
   }
 }
 
+void ExplicitLinkages::find_node_velocity(System& system, Mover& mover, double average) const {
+  mover.velocity = mover.base;
+  for (std::size_t k = 0; k < mover.directions.size(); ++k) {
+    const double change = mover.first_unknown >= 0 ? system.solution[mover.first_unknown + k]
+                                                   : average * mover.inverse_inertia * along(mover.constraint_force, mover.directions[k]);
+    add_along(mover.velocity, change, mover.directions[k]);
+  }
+}
+
 void ExplicitLinkages::find_velocities(const Analysis& analysis, System& system, const Instant& instant) const {
+  system.largest_turn = 0.0;
   for (auto& mover : system.movers) {
     switch (mover.kind) {
       case Mover::Kind::body:
@@ -106,15 +127,12 @@ void ExplicitLinkages::find_velocities(const Analysis& analysis, System& system,
         break;
       }
       default:
-        mover.velocity = mover.base;
-        for (std::size_t k = 0; k < mover.directions.size(); ++k) {
-          const double change = mover.first_unknown >= 0
-                                    ? system.solution[mover.first_unknown + k]
-                                    : instant.average() * mover.inverse_inertia * along(mover.constraint_force, mover.directions[k]);
-          add_along(mover.velocity, change, mover.directions[k]);
-        }
+        find_node_velocity(system, mover, instant.average());
     }
-    if (mover.kind != Mover::Kind::translation) mover.turn = rotation_matrix(exponential(instant.next * mover.spin()));
+    if (mover.kind == Mover::Kind::translation) continue;
+    const auto turn = instant.next * mover.spin();
+    mover.turn = rotation_matrix(exponential(turn));
+    system.largest_turn = std::max(system.largest_turn, std::sqrt(dot(turn, turn)));
   }
 }
 
@@ -139,12 +157,13 @@ double ExplicitLinkages::System::rate(const Member& member, std::size_t row, Vec
   double sum = 0.0;
   for (std::size_t k = 0; k < member.columns.size(); ++k) {
     const auto [mover, component] = mover_of_column[member.columns[k]];
-    sum += member.gradient[row * member.columns.size() + k] * (movers[mover].*velocity)[component];
+    sum += member.gradient[k][static_cast<int>(row)] * (movers[mover].*velocity)[component];
   }
   return sum;
 }
 
 double ExplicitLinkages::find_residual(const Analysis& analysis, System& system, double next, bool from_rest) const {
+  constexpr double apart = 1e-9;  // of nodes that are not in one place
   double largest = 0.0;
   for (const auto& member : system.members) {
     const auto& constraint = *analysis.constraints[member.constraint];
@@ -153,12 +172,13 @@ double ExplicitLinkages::find_residual(const Analysis& analysis, System& system,
       for (std::size_t i = 0; i < member.nodes.size(); ++i) places_.push_back(place_after(analysis, system, member, i, next));
       gaps_.resize(static_cast<std::size_t>(constraint.rows()));
       constraint.gaps(places_, gaps_);
+      system.largest_turn = std::max(system.largest_turn, turn_of_lines(member.places, places_, apart * system.size));
     }
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
       double& rate = system.residual[member.first_row + i];
       rate = 0.0;
       if (!system.holds[member.first_row + i]) continue;
-      const auto* const law = constraint.guide() != nullptr ? &guides_.of(analysis.first_constraint_row[member.constraint] + member.rows[i]) : nullptr;
+      const auto* const law = member.is_guide ? &guides_.of(analysis.first_constraint_row[member.constraint] + member.rows[i]) : nullptr;
       if (next == 0.0) {
         rate = system.rate(member, i, &Mover::velocity) - (law != nullptr && law->sticks() && !from_rest ? law->rate : 0.0);
         continue;
@@ -196,6 +216,13 @@ double ExplicitLinkages::solve(Analysis& analysis, System& system, const Instant
     const bool resolved = gap <= resolution * system.size || (iteration > 1 && !(gap <= 0.5 * before));
     if (iteration > 0 && (instant.next == 0.0 || resolved)) break;
     correct(system);
+    // The matrix is that of the start of the increment: a correction leaves as much of a gap as gradients change until its end.
+    constexpr double safety = 10.0;
+    if (system.has_guides || instant.next == 0.0 || !(safety * system.largest_turn * gap <= resolution * system.size)) continue;
+    find_constraint_forces(system);
+    for (auto& mover : system.movers)
+      if (mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation) find_node_velocity(system, mover, instant.average());
+    break;
   }
   return gap;
 }
@@ -243,7 +270,7 @@ void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
     find_responses(analysis, system);
     take_guides(analysis, system);
     for (const auto& member : system.members)  // friction brakes in time
-      for (std::size_t i = 0; i < member.rows.size() && analysis.constraints[member.constraint]->guide() != nullptr; ++i) {
+      for (std::size_t i = 0; i < member.rows.size() && member.is_guide; ++i) {
         const auto& law = guides_.of(analysis.first_constraint_row[member.constraint] + member.rows[i]);
         if (law.sticks() && law.friction != GuideLaw::unbounded) system.holds[member.first_row + i] = false;
       }
@@ -347,41 +374,6 @@ void ExplicitLinkages::add_to_output(Analysis& analysis) const {
         acceleration[4 * static_cast<std::size_t>(mover.index) + c] = (mover.velocity[c] - mover.old_velocity[c]) / system.average;
     }
   clusters_.add_to_output(analysis);
-}
-
-double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, bool rotation) {
-  const auto kind = rotation ? Mover::Kind::rotation : Mover::Kind::translation;
-  for (auto& system : systems_)
-    for (const auto& mover : system.movers) {
-      if (mover.kind != kind || mover.index != node) continue;
-      if (mover.first_unknown < 0) return mover.inverse_inertia;
-      find_places(analysis, system);
-      find_gradient(analysis, system);
-      find_responses(analysis, system);
-      const bool sound = factorizes(system, 1.0);  // else the start of the step tells
-      double trace = 0.0;
-      for (std::size_t k = 0; sound && k < mover.directions.size(); ++k) {
-        std::ranges::fill(system.solution, 0.0);
-        std::ranges::fill(system.residual, 0.0);
-        system.residual[mover.first_unknown + k] = 1.0;
-        correct(system);
-        trace += std::abs(system.solution[mover.first_unknown + k]);
-      }
-      system.factorized_for = 0.0;
-      return trace;
-    }
-  return clusters_.mobility(node, rotation);
-}
-
-ExplicitLinkages::Company ExplicitLinkages::company(std::int32_t node, bool rotation) const {
-  const auto kind = rotation ? Mover::Kind::rotation : Mover::Kind::translation;
-  Company company{.nodes = clusters_.company(node, rotation), .bodies = {}};
-  for (const auto& system : systems_) {
-    if (std::ranges::none_of(system.movers, [&](const Mover& mover) { return mover.kind == kind && mover.index == node; })) continue;
-    for (const auto& mover : system.movers)
-      (mover.kind == Mover::Kind::body ? company.bodies : company.nodes).push_back(mover.index);
-  }
-  return company;
 }
 
 }  // namespace balocco

@@ -11,7 +11,7 @@
 #include "explicit_motion.hpp"
 #include "explicit_rigid_clusters.hpp"
 #include "guide_laws.hpp"
-#include "math/definite_solver.hpp"
+#include "math/block_solver.hpp"
 #include "math/pivoting_solver.hpp"
 #include "sparse_solver.hpp"
 
@@ -93,23 +93,26 @@ class ExplicitLinkages {
     Point offset{};
     Vector3<double> arm{};                           // likewise, as the body stands
   };
-  /// Movers that two members share: where their columns begin in each.
+  /// A mover that two members share: where its columns begin in each, and the block of the matrix that it adds to.
   struct Shared {
     std::size_t member = 0, first = 0, other_first = 0;
     int size = 3;
+    std::int32_t block = -1;
   };
+  /// Rows of a constraint: as many as a pack has lanes, at most.
   struct Member {
     std::int32_t constraint = -1;
+    bool is_guide = false;
     std::vector<NodeUse> nodes;
     std::vector<int> rows;  // of the constraint that are solved for
     int first_row = 0;
     std::vector<std::int32_t> movers;
     std::vector<int> columns;      // of all its movers, in turn
     std::vector<NodePlace> places;  // of the nodes, at the instant
-    std::vector<double> gradient;  // rows x columns
-    std::vector<double> answer;    // change of velocities by multipliers, likewise
+    std::vector<Lanes> gradient;    // by column, the rows in lanes
+    std::vector<Lanes> answer;      // change of velocities by multipliers, likewise
     std::ptrdiff_t hub_column = -1;  // where those of the hub begin
-    std::vector<Shared> shared;    // with itself and members behind it, ordered by member
+    std::vector<Shared> shared;     // with itself and members that are eliminated behind it
   };
   struct System {
     std::vector<Mover> movers;
@@ -119,19 +122,23 @@ class ExplicitLinkages {
     /// A body that many members of a large system share: its velocity stays unknown, as eliminating it would couple them all.
     std::int32_t hub = -1;
     bool is_linear = true;       // the gradient is the same everywhere
+    bool has_guides = false;
     double size = 0.0;           // diagonal of the box around the model, which its positions are as exact as
     double average = 0.0;        // increment of the last motion
-    std::vector<double> matrix;  // unknowns x unknowns, of small ones
-    DefiniteSystem factors;
-    PivotingSolver indefinite_factors;  // where massless directions move
+    BlockSolver blocks;          // a block a member, and one of the hub
+    bool pivots = false;         // massless directions move, or blocks fail: one of the next two is used
+    PivotingSolver pivoting_factors;
     SparseSolver sparse_factors;             // of large ones
-    std::vector<SparseSolver::Entry> entries;  // likewise
+    std::vector<SparseSolver::Entry> entries;
+    std::vector<double> matrix;              // unknowns x unknowns, of small ones
     double factorized_for = 0.0;             // average increment; 0: none
     std::vector<double> solution, residual;  // multipliers and velocities
+    double largest_turn = 0.0;               // and relative stretch, over the next increment: what changes gradients
     std::vector<bool> holds;                 // of rows: else the multiplier is given
-    std::vector<double> row;                 // scratch, a value a column
 
-    /// Larger systems are solved by a sparse factorisation.
+    /// With the hub.
+    int equations() const { return static_cast<int>(residual.size()); }
+    /// Larger systems are solved by a sparse factorisation, where they need pivots.
     bool is_small() const { return unknowns <= 60; }
     bool is_definite() const { return unknowns == rows; }
     /// Of a row's gap, with the velocities of the movers before or after the instant.
@@ -147,6 +154,7 @@ class ExplicitLinkages {
   void find_implied_rows(Analysis& analysis, System& system) const;
   void drop_implied_rows(const Analysis& analysis, System& system) const;
   void number(System& system) const;
+  void find_hub(System& system) const;
   void list_shared_movers(System& system) const;
   void take_over(const System& system, InverseInertia& inverse);
   void take_over_clusters(InverseInertia& inverse);
@@ -156,9 +164,13 @@ class ExplicitLinkages {
   void find_answers(System& system, double average) const;
   void find_responses(const Analysis& analysis, System& system) const;
   void find_matrix(System& system, double average) const;
-  void find_hub_entries(System& system, double average) const;
+  /// Rows of guides that do not hold, and their columns, become those of the identity.
+  static void let_go(System& system, const Member& member, const Shared& shared);
+  void find_hub_blocks(System& system, double average) const;
+  void list_entries(System& system) const;
   /// @return false where the motion is not determined.
   bool factorizes(System& system, double average) const;
+  bool factorizes_with_pivots(System& system) const;
   void factorize(const Analysis& analysis, System& system, double average) const {
     if (!factorizes(system, average)) report_singular(analysis, system);
   }
@@ -175,6 +187,7 @@ class ExplicitLinkages {
   void find_constraint_forces(System& system) const;
   void find_base(const Analysis& analysis, System& system, const Instant& instant, const NodalForces& forces) const;
   void find_velocities(const Analysis& analysis, System& system, const Instant& instant) const;
+  void find_node_velocity(System& system, Mover& mover, double average) const;
   /// Gaps at the end of the next increment, over it (velocities, where there is none; or accelerations from rest). @return the largest gap.
   double find_residual(const Analysis& analysis, System& system, double next, bool from_rest = false) const;
   NodePlace place_after(const Analysis& analysis, const System& system, const Member& member, std::size_t node, double next) const;

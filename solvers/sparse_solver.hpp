@@ -1,4 +1,5 @@
-// Large sparse symmetric systems of the explicit loop, on one rank. Eigen stays out of sight: its headers cost seconds in every file.
+// Large sparse symmetric systems of the explicit loop that want pivots, on one rank. Eigen stays out of sight: its headers cost seconds
+// in every file.
 #pragma once
 
 #include <memory>
@@ -20,8 +21,8 @@ class SparseSolver {
   ~SparseSolver();
 
   /// Factorises the `size` x `size` matrix that is the sum of the entries, whose places and turn are those of the first time.
-  /// `factorable`: every symmetric permutation of it has factors L D L^T, which are tried first. @return false if it is singular.
-  bool factorize(const std::vector<Entry>& entries, int size, bool factorable);
+  /// @return false if it is singular.
+  bool factorize(const std::vector<Entry>& entries, int size);
   /// The solution replaces the right-hand side.
   void solve(std::span<double> right);
 

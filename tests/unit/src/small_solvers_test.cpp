@@ -4,7 +4,7 @@
 #include <cmath>
 #include <random>
 
-#include "math/definite_solver.hpp"
+#include "math/block_solver.hpp"
 #include "math/dense.hpp"
 #include "math/pivoting_solver.hpp"
 #include "math/rotation.hpp"
@@ -28,36 +28,55 @@ std::vector<double> definite_matrix(std::size_t size) {
   return product;
 }
 
-TEST(SmallSolvers, DefiniteAndPivotingOnesAgree) {
-  for (const std::size_t size : {1, 5, 12, 40}) {
-    const auto matrix = definite_matrix(size);
-    DefiniteSystem definite;
-    PivotingSolver pivoting;
-    ASSERT_TRUE(definite.factorize(matrix, size));
-    ASSERT_TRUE(pivoting.factorize(matrix, size));
-    std::vector<double> first(size), second(size), right(size);
-    for (std::size_t i = 0; i < size; ++i) first[i] = second[i] = right[i] = std::sin(1.0 + static_cast<double>(i));
-    definite.solve(first);
-    pivoting.solve(second);
-    for (std::size_t i = 0; i < size; ++i) {
-      EXPECT_NEAR(first[i], second[i], 1e-10 * (std::abs(second[i]) + 1e-8));
-      double product = 0.0, scale = 0.0;
-      for (std::size_t j = 0; j < size; ++j) {
-        product += matrix[i * size + j] * first[j];
-        scale += std::abs(matrix[i * size + j] * first[j]);
-      }
-      EXPECT_NEAR(product, right[i], 1e-12 * scale);
+/// Blocks of 1 to 8 rows in a ring, each coupled with the next one, and all with the last, which is negative.
+TEST(SmallSolvers, BlocksAndPivotsAgree) {
+  const std::vector<std::int32_t> sizes{5, 3, 8, 1, 6};
+  const auto blocks = static_cast<std::int32_t>(sizes.size());
+  std::vector<std::int32_t> first{0};
+  for (const auto size : sizes) first.push_back(first.back() + size);
+  const auto size = static_cast<std::size_t>(first.back());
+  std::vector<BlockSolver::Pair> pairs;
+  for (std::int32_t i = 0; i < blocks; ++i)
+    for (std::int32_t j = 0; j < blocks; ++j)
+      if (std::abs(i - j) < 2 || i + j == blocks - 2 || i == blocks - 1 || j == blocks - 1) pairs.push_back({i, j});
+  auto matrix = definite_matrix(size);
+  const auto is_coupled = [&](const BlockSolver::Pair& pair) { return std::ranges::count(pairs, pair) > 0; };
+  const auto block_of = [&](std::size_t row) {
+    return static_cast<std::int32_t>(std::ranges::upper_bound(first, static_cast<std::int32_t>(row)) - first.begin()) - 1;
+  };
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = 0; j < size; ++j) {
+      double& value = matrix[i * size + j];
+      if (!is_coupled({block_of(i), block_of(j)})) value = 0.0;
+      if (i == j) value = (block_of(i) == blocks - 1 ? -40.0 : 40.0) * value;
     }
+  BlockSolver solver;
+  solver.lay_out(sizes, pairs, 1);
+  PivotingSolver pivoting;
+  for (int repetition = 0; repetition < 2; ++repetition) {
+    solver.clear();
+    for (const auto& [i, j] : pairs)
+      for (int r = 0; r < sizes[i] && solver.in_order(i, j); ++r)
+        for (int c = 0; c < sizes[j]; ++c)
+          solver.block(solver.place(i, j))[static_cast<std::size_t>(r)][c] =
+              matrix[static_cast<std::size_t>(first[i] + r) * size + static_cast<std::size_t>(first[j] + c)];
+    ASSERT_TRUE(solver.factorize());
+    ASSERT_TRUE(pivoting.factorize(matrix, size));
+    std::vector<double> one(size), other(size);
+    for (std::size_t i = 0; i < size; ++i) one[i] = other[i] = std::sin(1.0 + static_cast<double>(i));
+    solver.solve(one);
+    pivoting.solve(other);
+    for (std::size_t i = 0; i < size; ++i) EXPECT_NEAR(one[i], other[i], 1e-12 * (std::abs(other[i]) + 1e-8));
   }
 }
 
-TEST(SmallSolvers, SingularMatricesAreTold) {
-  const std::vector<double> rank_one{1.0, 2.0, 2.0, 4.0}, indefinite{1.0, 0.0, 0.0, -1.0}, zero{0.0};
-  DefiniteSystem system;
-  EXPECT_FALSE(system.factorize(rank_one, 2));
-  EXPECT_FALSE(system.factorize(indefinite, 2));
-  EXPECT_FALSE(system.factorize(zero, 1));
-  EXPECT_TRUE(system.factorize(std::vector<double>{2.0}, 1));
+TEST(SmallSolvers, SingularBlocksAreTold) {
+  BlockSolver solver;
+  solver.lay_out({2}, {}, 0);
+  solver.clear();
+  solver.block(0)[0].lane = {1.0, 2.0};
+  solver.block(0)[1].lane = {2.0, 4.0};
+  EXPECT_FALSE(solver.factorize());
 }
 
 TEST(Six, TurnedMatrixTurnsPairs) {
