@@ -15,6 +15,7 @@ U, V, A
 ALLKE, ALLIE, ALLSE, ALLVD, ALLWK, ETOTAL
 """
 OMEGA = math.sqrt(1000.0)
+SELDOM = "*OUTPUT, FIELD, FREQUENCY=1000000\n*NODE OUTPUT\nU\n"  # a frame an increment takes longer than the increment
 
 
 def oscillator(steps, dashpot=0.0, nlgeom="", speed=1e-2):
@@ -41,7 +42,8 @@ def oscillator(steps, dashpot=0.0, nlgeom="", speed=1e-2):
 2, 1, %.15g
 """ % (damper, speed)
     for procedure in steps:
-        text += "*STEP, INC=100000%s\n%s\n%s*END STEP\n" % (nlgeom, procedure, HISTORY)
+        frames = "" if "EXPLICIT" in procedure else SELDOM
+        text += "*STEP, INC=100000%s\n%s\n%s*END STEP\n" % (nlgeom, procedure, frames + HISTORY)
     return text
 
 

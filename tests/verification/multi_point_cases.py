@@ -1,5 +1,6 @@
 #!/usr/bin/env python3
 """*MPC: angles of its joints, chains of its rigid arms: multi_point_cases.py CASE BALOCCO FOLDER."""
+import itertools
 import math
 
 import numpy as np
@@ -9,7 +10,7 @@ from motion_decks import GRAVITY, explicit_step, history
 
 STEP = "*STEP, NLGEOM, INC=200\n*STATIC\n0.1, 1., 1e-6, 0.1\n"
 LINEAR = "*STEP\n*STATIC\n1., 1.\n"
-SHOWN = "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=SHOWN\nU, UR, RM\n*END STEP\n"
+SHOWN = "*OUTPUT, FIELD, FREQUENCY=1000000\n*NODE OUTPUT\nU\n*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=SHOWN\nU, UR, RM\n*END STEP\n"
 
 
 def rotor(joint, inertia=0.02, stiffness=0.0):
@@ -49,42 +50,40 @@ OUT = "*OUTPUT, HISTORY, TIME INTERVAL=0.02\n*NODE OUTPUT, NSET=SHOWN\nU, UR, VR
 def revolute_angle(run):
     """Freedom 6 of the third node of REVOLUTE is the joint's angle: it is told, prescribed and loaded there."""
     inertia, stiffness = 0.02, 0.5
-    for ranks in (1, 2):
-        job = run(rotor(REVOLUTE) + explicit_step(1e-4, 0.5, "*BOUNDARY, TYPE=VELOCITY\n11, 6, 6, 15.\n", OUT), ranks)
-        time, shown = job.history("node_11", "UR")
-        check("angle that is driven, beyond whole turns", np.abs(shown[:, 2] - 15.0 * time).max(), 0.0, 1e-10)
-        check("turn of the rotor", np.abs(job.history("node_2", "UR")[1][:, 2] - 15.0 * time).max(), 0.0, 1e-10)
-        check("rate of the angle", np.abs(job.history("node_11", "VR")[1][1:, 2] - 15.0).max(), 0.0, 1e-9)
-        if ranks == 1:
-            job = run(rotor(REVOLUTE) + explicit_step(1e-4, 0.5, "*CLOAD\n11, 6, 0.1\n", OUT), ranks)
-            time, shown = job.history("node_11", "UR")
-            check("angle under a moment", np.abs(shown[:, 2] - 0.5 * 0.1 / inertia * time**2).max(), 0.0, 1e-3)
-            check_energy(job, 1e-3)
-        else:
-            job = run(rotor(REVOLUTE) + explicit_step(1e-4, 0.5, "*BOUNDARY, TYPE=ACCELERATION\n11, 6, 6, 3.\n", OUT), ranks)
-            moment = job.history("node_11", "RM")[1][2:, 2]
-            # The round-off of an angle of 0.4 rad is a moment of 1e-16 * 0.4 * inertia / (1e-4)^2, 1e-10.
-            check("moment that accelerates it", np.abs(moment - 3.0 * inertia).max(), 0.0, 1e-8)
-        for kind, step in (("large", STEP), ("small", LINEAR)):
-            sprung = rotor(REVOLUTE, stiffness=stiffness) + step
-            job = run(sprung + "*CLOAD\n11, 6, 0.1\n" + SHOWN, ranks)
-            check(f"angle against a spring, {kind}", job.history("node_11", "UR")[1][-1][2], 0.1 / stiffness, 1e-10)
-            job = run(sprung + "*BOUNDARY\n11, 6, 6, 0.7\n" + SHOWN, ranks)
-            check(f"turn of the rotor, {kind}", job.history("node_2", "UR")[1][-1][2], 0.7, 1e-10)
-            check(f"moment that holds the angle, {kind}", job.history("node_11", "RM")[1][-1][2], 0.7 * stiffness, 1e-9)
-        job = run(rotor(REVOLUTE, stiffness=stiffness) + LINEAR + "*CLOAD\n2, 6, 0.1\n" + SHOWN, ranks)
-        check("angle that a linear step tells", job.history("node_11", "UR")[1][-1][2], 0.1 / stiffness, 1e-12)
-        check("the step is linear", float("linear geometry" in job.log()), 1.0, 0.0)
-        held = rotor(REVOLUTE, stiffness=stiffness) + "*BOUNDARY\n11, 6\n"
-        second = STEP + "*BOUNDARY, OP=NEW\n1, 1, 6\n*CLOAD\n2, 6, 0.1\n" + SHOWN
-        job = run(held + STEP + "*CLOAD\n2, 6, 0.1\n" + SHOWN + second, ranks)
-        check("angle that is held from the start", np.abs(job.history("node_11", "UR")[1]).max(), 0.0, 1e-12)
-        check("moment that holds it", job.history("node_11", "RM")[1][-1][2], -0.1, 1e-9)
-        check("angle that is let go", job.history("node_11", "UR", 2)[1][-1][2], 0.1 / stiffness, 1e-9)
-        job = run(rotor(REVOLUTE, stiffness=stiffness) + "*STEP, NLGEOM, INC=1000\n*DYNAMIC, ALPHA=0., DIRECT\n0.005, 1.\n*CLOAD\n2, 6, 0.1\n" + SHOWN, ranks)
-        time, shown = job.history("node_11", "UR")
-        expected = 0.1 / stiffness * (1.0 - np.cos(math.sqrt(stiffness / inertia) * time))
-        check("angle in implicit dynamics", np.abs(shown[:, 2] - expected).max(), 0.0, 2e-4)
+    ranks = itertools.cycle((1, 2))
+    job = run(rotor(REVOLUTE) + explicit_step(1e-4, 0.5, "*BOUNDARY, TYPE=VELOCITY\n11, 6, 6, 15.\n", OUT), next(ranks))
+    time, shown = job.history("node_11", "UR")
+    check("angle that is driven, beyond whole turns", np.abs(shown[:, 2] - 15.0 * time).max(), 0.0, 1e-10)
+    check("turn of the rotor", np.abs(job.history("node_2", "UR")[1][:, 2] - 15.0 * time).max(), 0.0, 1e-10)
+    check("rate of the angle", np.abs(job.history("node_11", "VR")[1][1:, 2] - 15.0).max(), 0.0, 1e-9)
+    job = run(rotor(REVOLUTE) + explicit_step(1e-4, 0.5, "*CLOAD\n11, 6, 0.1\n", OUT), next(ranks))
+    time, shown = job.history("node_11", "UR")
+    check("angle under a moment", np.abs(shown[:, 2] - 0.5 * 0.1 / inertia * time**2).max(), 0.0, 1e-3)
+    check_energy(job, 1e-3)
+    job = run(rotor(REVOLUTE) + explicit_step(1e-4, 0.5, "*BOUNDARY, TYPE=ACCELERATION\n11, 6, 6, 3.\n", OUT), next(ranks))
+    moment = job.history("node_11", "RM")[1][2:, 2]
+    # The round-off of an angle of 0.4 rad is a moment of 1e-16 * 0.4 * inertia / (1e-4)^2, 1e-10.
+    check("moment that accelerates it", np.abs(moment - 3.0 * inertia).max(), 0.0, 1e-8)
+    for kind, step in (("large", STEP), ("small", LINEAR)):
+        sprung = rotor(REVOLUTE, stiffness=stiffness) + step
+        job = run(sprung + "*CLOAD\n11, 6, 0.1\n" + SHOWN, next(ranks))
+        check(f"angle against a spring, {kind}", job.history("node_11", "UR")[1][-1][2], 0.1 / stiffness, 1e-10)
+        job = run(sprung + "*BOUNDARY\n11, 6, 6, 0.7\n" + SHOWN, next(ranks))
+        check(f"turn of the rotor, {kind}", job.history("node_2", "UR")[1][-1][2], 0.7, 1e-10)
+        check(f"moment that holds the angle, {kind}", job.history("node_11", "RM")[1][-1][2], 0.7 * stiffness, 1e-9)
+    job = run(rotor(REVOLUTE, stiffness=stiffness) + LINEAR + "*CLOAD\n2, 6, 0.1\n" + SHOWN, next(ranks))
+    check("angle that a linear step tells", job.history("node_11", "UR")[1][-1][2], 0.1 / stiffness, 1e-12)
+    check("the step is linear", float("linear geometry" in job.log()), 1.0, 0.0)
+    held = rotor(REVOLUTE, stiffness=stiffness) + "*BOUNDARY\n11, 6\n"
+    second = STEP + "*BOUNDARY, OP=NEW\n1, 1, 6\n*CLOAD\n2, 6, 0.1\n" + SHOWN
+    job = run(held + STEP + "*CLOAD\n2, 6, 0.1\n" + SHOWN + second, next(ranks))
+    check("angle that is held from the start", np.abs(job.history("node_11", "UR")[1]).max(), 0.0, 1e-12)
+    check("moment that holds it", job.history("node_11", "RM")[1][-1][2], -0.1, 1e-9)
+    check("angle that is let go", job.history("node_11", "UR", 2)[1][-1][2], 0.1 / stiffness, 1e-9)
+    job = run(rotor(REVOLUTE, stiffness=stiffness) + "*STEP, NLGEOM, INC=1000\n*DYNAMIC, ALPHA=0., DIRECT\n0.005, 1.\n*CLOAD\n2, 6, 0.1\n" + SHOWN, next(ranks))
+    time, shown = job.history("node_11", "UR")
+    expected = 0.1 / stiffness * (1.0 - np.cos(math.sqrt(stiffness / inertia) * time))
+    check("angle in implicit dynamics", np.abs(shown[:, 2] - expected).max(), 0.0, 2e-4)
 
 
 def universal_angles(run):
@@ -125,7 +124,7 @@ def rigid_chains(run):
     thrown = ("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nALL, 3., 0.2, -0.1, 0.3\n0., 0., 0., 1., 2., 3.\n"
               + explicit_step(1e-4, 0.2, "*CLOAD\n4, 1, 2.\n4, 2, -1.\n", history("ALL", "U", 0.02)))
     hung = "*BOUNDARY\n1, 1, 3\n" + explicit_step(1e-4, 0.2, GRAVITY, history("ALL", "U", 0.02))
-    static = lambda step: step + "*CLOAD\n4, 1, 20.\n4, 2, -15.\n3, 3, 25.\n*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=ALL\nU\n*END STEP\n"
+    static = lambda step: step + "*CLOAD\n4, 1, 20.\n4, 2, -15.\n3, 3, 25.\n" + SHOWN.replace("SHOWN", "ALL")
     for name, deck, tolerance in (("thrown", points(masses) + "{}" + thrown, 1e-6), ("hung up", points(masses) + "{}" + hung, 1e-6),
                                   ("on springs", points(springs) + "{}" + static(STEP), 1e-8), ("on springs, linear", points(springs) + "{}" + static(LINEAR), 1e-9)):
         body = run(deck.format(ONE_BODY), 1)
