@@ -24,7 +24,7 @@ namespace balocco {
 
 namespace {
 
-constexpr std::int64_t checkpoint_version = 10;
+constexpr std::int64_t checkpoint_version = 11;
 
 ParallelFile::Layout plain_layout(int columns) {
   return {{static_cast<hsize_t>(columns)}, ParallelFile::Precision::double_, false};

@@ -2,7 +2,7 @@
 
 #include "materials/j2_plasticity.hpp"
 #include "materials/plane_elastic.hpp"
-#include "materials/viscoelastic.hpp"
+#include "materials/relaxing_rubber.hpp"
 #include "model/diagnostics.hpp"
 #include "model/model.hpp"
 
@@ -14,7 +14,8 @@ PlaneElastic plane_form(std::span<const double> p) {
   return PlaneElastic::from_constants({p[0], p[0], p[1], p[0] / (2.0 * (1.0 + p[1])), p[1]});
 }
 
-/// The elastic forms are written by hand; with *PLASTIC or *VISCOELASTIC the thin ones are condensed from the solid.
+/// The elastic forms are written by hand; with *PLASTIC the thin ones are condensed from the solid. With *VISCOELASTIC the law is
+/// neo-Hookean, of the same constants at small strain: St. Venant-Kirchhoff has no isochoric energy whose stress could relax (viscoelastic.hpp).
 template <PointKind kind>
 std::unique_ptr<Law<kind>> form(const Material& m) {
   const double young = m.parameters[0], poisson = m.parameters[1];
@@ -23,7 +24,7 @@ std::unique_ptr<Law<kind>> form(const Material& m) {
     return make_metal<kind>(m);
   }
   const IsotropicElastic solid = IsotropicElastic::from_young(young, poisson);
-  if (relaxes(m)) return make_form<kind>(Viscoelastic<IsotropicElastic>::of(m, solid, solid.mu, m.instantaneous));
+  if (relaxes(m)) return relaxing_rubber<kind>(m, {0.5 * solid.mu, 0.0, young / (3.0 * (1.0 - 2.0 * poisson))});
   if constexpr (kind == PointKind::solid) return make_solid_law(solid);
   if constexpr (kind == PointKind::plane) return make_plane_law(plane_form(m.parameters));
   if constexpr (kind == PointKind::line) return make_line_law(LineElastic{young, poisson});

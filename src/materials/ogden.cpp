@@ -60,7 +60,7 @@ template <PointKind kind>
 std::unique_ptr<Law<kind>> form(const Material& m) {
   const Ogden law = rubber(m);
   if (!relaxes(m)) return make_form<kind>(law);
-  return make_form<kind>(Viscoelastic<Ogden>::of(m, law, law.shear_modulus(), m.instantaneous));
+  return make_form<kind>(Viscoelastic<Ogden>::of(m, law, m.instantaneous));
 }
 
 MaterialLaw entry(int order) {

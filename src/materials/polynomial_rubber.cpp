@@ -63,7 +63,7 @@ std::vector<ParameterSpec> parameters(const Arrangement& a) {
 
 template <PointKind kind>
 std::unique_ptr<Law<kind>> relaxing(const Material& m, const PolynomialRubber& law) {
-  return make_form<kind>(Viscoelastic<PolynomialRubber>::of(m, law, law.shear_modulus(), m.instantaneous));
+  return make_form<kind>(Viscoelastic<PolynomialRubber>::of(m, law, m.instantaneous));
 }
 
 template <PointKind kind>

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <span>
 #include <vector>
 
 #include "materials/condensation.hpp"
@@ -22,21 +23,40 @@ struct PronyTerm {
 /// The terms of a material, empty without *VISCOELASTIC. @throws InputError if the shares leave nothing in the long term
 std::vector<PronyTerm> prony_terms(const Material& material);
 
+/// What an increment of length dt does to a branch of relaxation time t, with x = dt / t.
+struct BranchDecay {
+  double left = 1.0;      // exp(-x)
+  double mean = 1.0;      // m = (1 - exp(-x)) / x
+  double work = 0.5;      // (1 - m) / x
+  double heat = 0.0;      // (1 - m) / x - m^2 / 2
+
+  static BranchDecay over(double x) {
+    if (!(x > 0.0)) return {};
+    const double lost = -std::expm1(-x), mean = lost / x;
+    if (x < 1e-2) {
+      const double heat = x * (1.0 / 3.0 - x * (1.0 / 4.0 - x * (7.0 / 60.0 - x * (1.0 / 24.0 - x * (31.0 / 2520.0)))));
+      return {1.0 - lost, mean, heat + 0.5 * mean * mean, heat};
+    }
+    return {1.0 - lost, mean, (1.0 - mean) / x, (1.0 - mean) / x - 0.5 * mean * mean};
+  }
+};
+
 /// With the deviatoric Kirchhoff stress s0 of the instantaneous law, S0 = J^2/3 F^-1 s0 F^-T and terms g, t:
 ///   h_new = exp(-dt/t) h + g (1 - exp(-dt/t)) t/dt (S0_new - S0),  S = (1 - sum g) S0 + sum h,  s = dev(F S F^T) J^-2/3.
-/// The pressure does not relax.
+/// The pressure does not relax. The solid's energy must be the sum of one of the volume and one of the isochoric deformation: the deviatoric
+/// stress of another is no gradient of an energy, so that what scales it or lets it relax would do work in closed loops.
+/// Each branch keeps its energy e, which goes where its stress goes: e' = h : E' - 2 e / t with the isochoric strain E, integrated for the
+/// h above and straight E. At small strain that is |h|^2 / (4 G g); where nothing relaxes it is g times the solid's isochoric energy.
 template <class Solid>
 struct Viscoelastic {
   static constexpr int most_terms = 6;
   Solid solid;
   std::vector<PronyTerm> terms;
   double scale = 1.0;   // instantaneous over given deviatoric stress
-  double shear = 1.0;   // instantaneous initial shear modulus
 
-  static Viscoelastic of(const Material& material, const Solid& solid, double shear, bool instantaneous) {
+  static Viscoelastic of(const Material& material, const Solid& solid, bool instantaneous) {
     Viscoelastic law{solid, prony_terms(material)};
     if (!instantaneous) law.scale = 1.0 / law.long_term();
-    law.shear = law.scale * shear;
     return law;
   }
 
@@ -45,6 +65,7 @@ struct Viscoelastic {
     SymmetricTensor<T> elastic{};  // S0
     SymmetricTensor<T> strain{};   // (Cbar - I) / 2, Cbar = J^-2/3 C
     std::array<SymmetricTensor<T>, most_terms> branch{};
+    std::array<T, most_terms> stored{};  // energy of each branch
     T dissipation = T(0.0);
   };
   template <class S, class Visit>
@@ -52,6 +73,8 @@ struct Viscoelastic {
     visit("INSTANTANEOUS STRESS", state.elastic.component);
     visit("ISOCHORIC STRAIN", state.strain.component);
     for (std::size_t i = 0; i < terms.size(); ++i) visit("BRANCH STRESS", state.branch[i].component);
+    const auto stored = std::span(state.stored).first(terms.size());
+    visit("BRANCH ENERGIES", stored);
     visit("VISCOUS DISSIPATION", state.dissipation);
   }
 
@@ -71,16 +94,16 @@ struct Viscoelastic {
     const SymmetricTensor<T> change = elastic - state.elastic;
     const SymmetricTensor<T> strain = green_strain(root * f - Matrix3<T>::identity()), stretching = strain - state.strain;
     for (std::size_t i = 0; i < terms.size(); ++i) {
-      const double x = increment / terms[i].time, decay = std::exp(-x);
-      const double gain = x > 0.0 ? terms[i].share * (-std::expm1(-x) / x) : terms[i].share;
-      const SymmetricTensor<T> old = state.branch[i];
-      state.branch[i] = T(decay) * old + T(gain) * change;
+      const BranchDecay decay = BranchDecay::over(increment / terms[i].time);
+      const SymmetricTensor<T> old = state.branch[i], gained = T(terms[i].share) * change;
+      state.branch[i] = T(decay.left) * old + T(decay.mean) * gained;
       total = total + state.branch[i];
-      // Work on the branch, s : d = h : d(Cbar) / 2, less what it stores, |h|^2 / (4 G g) as at small strain.
-      const T work = 0.5 * double_contraction(old + state.branch[i], stretching);
-      const T stored = (1.0 / (4.0 * shear * terms[i].share)) * (double_contraction(state.branch[i], state.branch[i]) -
-                                                                 double_contraction(old, old));
-      state.dissipation = state.dissipation + (work - stored);
+      const T by_old = double_contraction(old, stretching), by_gain = double_contraction(gained, stretching);
+      const T work = decay.mean * by_old + decay.work * by_gain;
+      const double lost = 1.0 - decay.left;
+      const T heat = maximum(lost * ((1.0 + decay.left) * state.stored[i] + decay.mean * by_old) + decay.heat * by_gain, T(0.0));
+      state.stored[i] = state.stored[i] + (work - heat);
+      state.dissipation = state.dissipation + heat;
     }
     state.elastic = elastic;
     state.strain = strain;
@@ -103,8 +126,7 @@ struct Viscoelastic {
     const double jacobian = determinant(f, cofactor(f)), root = std::cbrt(jacobian);
     const double volumetric = solid.energy(root * Matrix3<double>::identity());
     EnergyDensity e{volumetric + long_term() * scale * (solid.energy(f) - volumetric), 0.0, state.dissipation};
-    for (std::size_t i = 0; i < terms.size(); ++i)
-      e.recoverable += double_contraction(state.branch[i], state.branch[i]) / (4.0 * shear * terms[i].share);
+    for (std::size_t i = 0; i < terms.size(); ++i) e.recoverable += state.stored[i];
     return e;
   }
 
