@@ -28,7 +28,7 @@ std::array<double, 3> strain_of_layer(const ShellSection& section, const ShellLa
 }  // namespace
 
 void shell_resultants(const ShellSection& section, double h, const std::array<double, 6>& strain,
-                      std::span<double> history, std::array<double, 6>& resultants, std::span<double> stiffness) {
+                      double increment, std::span<double> history, std::array<double, 6>& resultants, std::span<double> stiffness) {
   if (section.linear) {
     const Matrix6 d = section_stiffness(section.stiffness, h);
     Eigen::Map<Eigen::Matrix<double, 6, 1>>(resultants.data()) =
@@ -42,7 +42,7 @@ void shell_resultants(const ShellSection& section, double h, const std::array<do
     const ShellPly& ply = section.plies[layer.ply];
     std::array<double, 3> stress;
     PlaneStiffness tangent;
-    ply.law->tangent(strain_of_layer(section, layer, h, strain), quasi_static,
+    ply.law->tangent(strain_of_layer(section, layer, h, strain), increment,
                      history.subspan(layer.history, ply.law->history_size()), stress, tangent);
     stress = stress_in_section(ply, stress);
     if (ply.turned) tangent = rotated_stiffness(tangent, std::atan2(ply.sine, ply.cosine));

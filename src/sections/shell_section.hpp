@@ -75,10 +75,10 @@ std::array<T, 3> stress_in_section(const ShellPly& ply, const std::array<T, 3>& 
           (c * s) * (stress[0] - stress[1]) + (c * c - s * s) * stress[2]};
 }
 
-/// Resultants (N, M) per length of a strain (E, K), and their derivative (row-major 6 x 6) unless it is empty; the
-/// history of the point is old on entry and new on return.
+/// Resultants (N, M) per length of a strain (E, K), and their derivative (row-major 6 x 6) unless it is empty, `increment` after the
+/// history of the point, which is old on entry and new on return.
 void shell_resultants(const ShellSection& section, double thickness, const std::array<double, 6>& strain,
-                      std::span<double> history, std::array<double, 6>& resultants, std::span<double> stiffness);
+                      double increment, std::span<double> history, std::array<double, 6>& resultants, std::span<double> stiffness);
 
 /// Recoverable energy per area.
 EnergyDensity shell_energy(const ShellSection& section, double thickness, const std::array<double, 6>& strain,

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Laws that know time: viscous_cases.py CASE BALOCCO FOLDER."""
+"""Laws that know time: Prony series and yield that depends on rates, explicit and implicit: viscous_cases.py CASE BALOCCO FOLDER."""
 import numpy as np
 
 from explicit_cases import check, run_case
@@ -92,6 +92,120 @@ TOP, 3, 3, -0.3
                 check(f"{what}: work of the loop", work[-1] / most, 0.0, 1e-2)
             if time == 1e5:
                 check(f"{what}: nothing is dissipated", lost[-1] / most, 0.0, 1e-4)
+
+
+IMPLICIT, EXPLICIT = "*DYNAMIC, DIRECT\n0.05, {}", "*DYNAMIC, EXPLICIT\n, {}"
+HISTORY = FEW_FRAMES + "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=TOP\nU3, RF1, RF3\n"
+
+
+def reaction(job, kind, axis, step=1):
+    histories = [job.history(f"node_{node}", f"RF{axis}", step) for node in top(kind)]
+    return histories[0][0], sum(values for _, values in histories)
+
+
+def relaxation(run):
+    """A strain that comes quickly and is held: the force falls with the series in implicit steps, explicit ones and from one to the
+    other. Solids and membranes are sheared, shells and bars of a material that keeps its volume are pulled."""
+    held, rise = 0.002, 0.05
+    elastic, rubber = "*ELASTIC\n{young!r}, {poisson!r}\n", "*HYPERELASTIC, NEO HOOKE\n2., {compressibility!r}\n"
+    for kinds, law, axis, bulk, modulus in (
+        (SOLIDS + MEMBRANES, elastic, 1, 20.0, 4.0), (SOLIDS + MEMBRANES, rubber, 1, 20.0, 4.0), (SHELLS + BARS, elastic, 3, 1e4, 12.0)):
+        moduli = {"young": 36.0 * bulk / (3.0 * bulk + 4.0), "poisson": (3.0 * bulk - 8.0) / (6.0 * bulk + 8.0), "compressibility": 2.0 / bulk}
+        model = mesh(*kinds) + f"""*MATERIAL, NAME=M
+*DENSITY
+2e-5
+{law.format(**moduli)}*VISCOELASTIC, TIME=PRONY
+0.3, 0., 0.1
+0.4, 0., 2.
+*AMPLITUDE, NAME=QUICKLY, TIME=TOTAL TIME
+0., 0., {rise}, 1., 100., 1.
+"""
+        held_nodes = "BOTTOM, 3\n" + "".join(map(free_sideways, kinds)) if axis == 3 else "BOTTOM, 1, 3\nTOP, 2, 3\n"
+        moved = f"*BOUNDARY\n{held_nodes}*BOUNDARY, AMPLITUDE=QUICKLY\nTOP, {axis}, {axis}, {held}\n"
+        procedures = (IMPLICIT.format(1.0), EXPLICIT.format(0.1), IMPLICIT.format(2.9))
+        job = run(model + "".join(f"*STEP, NLGEOM, INC=1000\n{p}\n{moved}{HISTORY}*END STEP\n" for p in procedures), 1)
+        for kind in kinds:
+            for step in (1, 2, 3):
+                time, force = reaction(job, kind, axis, step)
+                relaxing = sum(g * t / rise * np.expm1(rise / t) * np.exp(-time / t) for g, t in ((0.3, 0.1), (0.4, 2.0)))
+                exact = modulus * held * (1.0 + relaxing / 0.3)
+                late = time > max(1.5 * rise, time[0])  # a step's first instant stops velocities
+                check(f"{kind}, step {step}: force", np.abs(force / exact - 1.0)[late].max(), 0.0, 0.01)
+
+
+def free_sideways(kind):
+    """Conditions that let an element become thinner, but not wander."""
+    if kind in BARS:
+        return "".join(f"{n}, 1, 2\n" for n in nodes_where(kind, lambda x, y, z: True))
+    held = "".join(f"{n}, 1\n" for n in nodes_where(kind, lambda x, y, z: x == 0))
+    return held + "".join(f"{n}, 2\n" for n in nodes_where(kind, lambda x, y, z: y == 0))
+
+
+def free_vibration(run):
+    """A mass on a relaxing brick that is held sideways: m s^2 + K + 4/3 G (1 + r s t / (1 + s t)) = 0 has three poles."""
+    shear, bulk, time, ratio, speed, mass = 50.0, 100.0 / 3.0, 0.1, 1.0, 0.01, 1.0 + 0.5e-3
+    lag = np.array([time, 1.0])
+    characteristic = np.polyadd(np.polymul([mass, 0.0, bulk], lag), 4.0 / 3.0 * shear * np.array([time * (1.0 + ratio), 1.0]))
+    poles = np.roots(characteristic)
+    masses = "".join(f"*ELEMENT, TYPE=MASS, ELSET=MASS\n{100 + n}, {n}\n" for n in top("C3D8"))
+    model = mesh("C3D8") + f"""{masses}*MASS, ELSET=MASS
+0.25
+*MATERIAL, NAME=M
+*DENSITY
+1e-3
+*ELASTIC
+100., 0.
+*VISCOELASTIC, TIME=PRONY
+0.5, 0., {time}
+*INITIAL CONDITIONS, TYPE=VELOCITY
+TOP, 3, {speed}
+*STEP, NLGEOM, INC=10000
+*DYNAMIC, DIRECT, ALPHA=0.
+0.005, 1.5
+*BOUNDARY
+BOTTOM, 1, 3
+TOP, 1, 2
+{HISTORY}{ENERGIES}*END STEP
+"""
+    job = run(model, 1)
+    t, motion = job.history(f"node_{top('C3D8')[0]}", "U3")
+    exact = sum(mass * speed * np.polyval(lag, p) / np.polyval(np.polyder(characteristic), p) * np.exp(p * t) for p in poles).real
+    check("largest error of the motion", np.abs(motion - exact).max() / np.abs(exact).max(), 0.0, 5e-3)
+    check("what is left after 1.3 s", np.abs(motion[t > 1.3]).max() / np.abs(exact[t > 1.3]).max(), 1.0, 0.02)
+    lost = job.history("energy", "ALLVD")[1]
+    check("what is dissipated", lost[-1] / (0.5 * mass * speed**2), 1.0, 0.02)
+    check("steepest fall of it", min(np.diff(lost).min(), 0.0), 0.0, 1e-15)
+    total = job.history("energy", "ETOTAL")[1]
+    check("energy kept", np.abs(total - total[0]).max() / total.max(), 0.0, 5e-3)
+
+
+def yield_at_rate(run):
+    """A bar pulled at a steady speed in implicit dynamics: its yield stress is the table's times 1 + (rate / D)^(1/n); statics stay at rate
+    zero and say so."""
+    law = """*MATERIAL, NAME=M
+*DENSITY
+1e-2
+*ELASTIC
+1e5, 0.3
+*PLASTIC
+100., 0.
+*RATE DEPENDENT
+40., 5.
+*AMPLITUDE, NAME=STEADY
+0, 0, 1, 1
+*BOUNDARY
+BOTTOM, 3
+"""
+    model = mesh(*KINDS) + law + "".join(map(free_sideways, KINDS))
+    for procedure, follows in {"*DYNAMIC, DIRECT": True, "*STATIC, DIRECT": False}.items():
+        step = f"*STEP, NLGEOM, INC=1000\n{procedure}\n0.01, 1.\n*BOUNDARY, AMPLITUDE=STEADY\nTOP, 3, 3, 0.1\n{HISTORY}*END STEP\n"
+        job = run(model + step, 1)
+        check(f"{procedure}: notes", job.log().count("yields as at rate zero"), 0 if follows else 1, 0.0)
+        for kind in KINDS:
+            time, force = reaction(job, kind, 3)
+            stretch, late = 1.0 + 0.1 * time, time > 0.1
+            exact = 100.0 * (1.0 + follows * (0.1 / stretch / 40.0)**0.2) / stretch
+            check(f"{kind} {procedure}: force", np.abs(force / exact - 1.0)[late].max(), 0.0, 5e-3)
 
 
 if __name__ == "__main__":

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "elements/beams/beam.hpp"
+#include "elements/law_increment.hpp"
 
 namespace balocco {
 
@@ -92,7 +93,7 @@ bool BeamGroup::linearize(std::int32_t element, const NodalMotion& motion, std::
                                  with_spin<12>(orientation_of(node[1], motion.orientation), 9), e,
                                  1.0 / reference(element, length));
   std::copy(old_history.begin(), old_history.end(), new_history.begin());
-  const auto forces = beam_forces(k, response(element, k.strain, quasi_static, new_history), e);
+  const auto forces = beam_forces(k, response(element, k.strain, law_increment(motion), new_history), e);
   for (int i = 0; i < 6; ++i) new_history[strain_row + i] = k.strain[i].value;
   const auto put = [&](int row, const Scalar& value, double sign) {
     force[row] = sign * value.value;

@@ -58,7 +58,7 @@ class MembraneGroup final : public ElementGroup {
   void finish(const Block& block, const ExplicitCycle& cycle, std::span<double> history, StableIncrement& stable) const;
 
   template <class T>
-  bool internal_force(std::int32_t element, const typename MembraneKernel<T, corners, points>::Edges& edge,
+  bool internal_force(std::int32_t element, double increment, const typename MembraneKernel<T, corners, points>::Edges& edge,
                       std::span<double> history, typename MembraneKernel<T, corners, points>::Edges& force) const;
 
   MembraneSection section_data_;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/law_increment.hpp"
 #include "elements/membranes/membrane.hpp"
 #include "elements/membranes/membrane_output.hpp"
 
@@ -60,7 +61,7 @@ SurfaceTangents<double> values(const SurfaceTangents<T>& tangents) {
 
 template <int corners, int points>
 template <class T>
-bool MembraneGroup<corners, points>::internal_force(std::int32_t element,
+bool MembraneGroup<corners, points>::internal_force(std::int32_t element, double increment,
                                                   const typename MembraneKernel<T, corners, points>::Edges& edge,
                                                   std::span<double> history,
                                                   typename MembraneKernel<T, corners, points>::Edges& force) const {
@@ -74,7 +75,7 @@ bool MembraneGroup<corners, points>::internal_force(std::int32_t element,
     if (q == 0) first_area = area;
     if (!(dot(area, first_area) > 0.0)) return false;  // no area, folded, or not a number
     const std::array<T, 3> strain = Kernel::strain(data, tangents, edge);
-    const auto stress = chained_stress(*section_data_.law, strain, quasi_static, history.subspan(q * law_size, law_size));
+    const auto stress = chained_stress(*section_data_.law, strain, increment, history.subspan(q * law_size, law_size));
     Kernel::add_forces(data, q, tangents, stress, force);
     if constexpr (Layout::one_point_quadrilateral) Kernel::add_hourglass_forces(data, tangents, stress, edge, force);
     history[area_ratio_row(q)] = std::sqrt(metric_determinant(metric(values(tangents))));
@@ -101,14 +102,14 @@ bool MembraneGroup<corners, points>::linearize(std::int32_t element, const Nodal
   if (stiffness.empty()) {
     typename MembraneKernel<double, corners, points>::Edges on_edges{};
     const auto edge = element_edges<double, Layout::edges>(ElementGroup::nodes(element), motion.position);
-    if (!internal_force<double>(element, edge, new_history, on_edges)) return false;
+    if (!internal_force<double>(element, law_increment(motion), edge, new_history, on_edges)) return false;
     spread(on_edges);
     return true;
   }
   using Scalar = Dual<size>;
   typename MembraneKernel<Scalar, corners, points>::Edges on_edges{};
   const auto edge = element_edges<Scalar, Layout::edges>(ElementGroup::nodes(element), motion.position);
-  if (!internal_force<Scalar>(element, edge, new_history, on_edges)) return false;
+  if (!internal_force<Scalar>(element, law_increment(motion), edge, new_history, on_edges)) return false;
   spread(on_edges);
   std::fill(stiffness.begin(), stiffness.end(), 0.0);
   for (int row = 3; row < size; ++row)

@@ -82,7 +82,7 @@ class ShellGroup final : public ElementGroup {
   static void add_hourglass(const double* record, const ShellModes<T, corners>& strain, ShellModes<T, corners>& stress);
 
   template <class T>
-  bool internal_force(const double* record, const ShellKernel<T, corners>& kernel, std::span<double> history,
+  bool internal_force(const double* record, const ShellKernel<T, corners>& kernel, double increment, std::span<double> history,
                       ShellForces<T, corners>& nodal) const;
   ShellKernel<double, corners> kernel_at(std::int32_t element, const NodalMotion& motion) const;
   void stiffness_at_rest(std::int32_t element, const ShellGeometry& geometry, std::span<double> stiffness) const;

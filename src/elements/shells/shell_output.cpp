@@ -183,7 +183,7 @@ void ShellGroup<corners, points>::section_output(std::string_view variable, int 
     const auto own = history.subspan(point * section_.history_size, section_.history_size);
     std::vector<double> scratch(own.begin(), own.end());
     std::array<double, 6> resultants;
-    shell_resultants(section_, at.thickness, {e[0], e[1], e[2], k[0], k[1], k[2]}, scratch, resultants, {});
+    shell_resultants(section_, at.thickness, {e[0], e[1], e[2], k[0], k[1], k[2]}, 0.0, scratch, resultants, {});
     // Per current length: as stress, but with the thickness already inside.
     const int first = variable == "SF" ? 0 : 3;
     const auto turned = plane_cauchy_stress(e, {resultants[first], resultants[first + 1], resultants[first + 2]}, 1.0);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "elements/failure.hpp"
+#include "elements/law_increment.hpp"
 #include "elements/shells/shell.hpp"
 #include "math/rotation.hpp"
 
@@ -45,12 +46,12 @@ std::array<Matrix3<T>, corners> as_rotations(const std::array<Matrix3<double>, c
 /// Resultants of a strain of any scalar: value from the section, derivatives by the chain rule with its stiffness.
 template <class T>
 std::array<T, 6> chained_resultants(const ShellSection& section, double thickness, const std::array<T, 6>& strain,
-                                    std::span<double> history) {
+                                    double increment, std::span<double> history) {
   std::array<double, 6> strain_value, value;
   std::array<double, 36> stiffness;
   for (int i = 0; i < 6; ++i) strain_value[i] = value_of(strain[i]);
   constexpr bool differentiate = !std::is_same_v<T, double>;
-  shell_resultants(section, thickness, strain_value, history, value,
+  shell_resultants(section, thickness, strain_value, increment, history, value,
                    differentiate ? std::span<double>(stiffness) : std::span<double>());
   std::array<T, 6> result;
   for (int i = 0; i < 6; ++i) {
@@ -110,7 +111,7 @@ void spread_stiffness(const ShellForces<Dual<6 * corners>, corners>& nodal, std:
 template <int corners, int points>
 template <class T>
 bool ShellGroup<corners, points>::internal_force(const double* data, const ShellKernel<T, corners>& kernel,
-                                                 std::span<double> history, ShellForces<T, corners>& nodal) const {
+                                                 double increment, std::span<double> history, ShellForces<T, corners>& nodal) const {
   const auto c = [&](const Vector3<T>& a, const Vector3<T>& b) { return value_of(dot(a, b)); };
   const double square = c(kernel.tangent1(), kernel.tangent1()) * c(kernel.tangent2(), kernel.tangent2()) -
                         std::pow(c(kernel.tangent1(), kernel.tangent2()), 2);
@@ -125,7 +126,7 @@ bool ShellGroup<corners, points>::internal_force(const double* data, const Shell
     const auto resultants = chained_resultants<T>(
         section_, thickness,
         {here.membrane[0], here.membrane[1], here.membrane[2], here.curvature[0], here.curvature[1], here.curvature[2]},
-        history.empty() ? history : history.subspan(q * section_.history_size, section_.history_size));
+        increment, history.empty() ? history : history.subspan(q * section_.history_size, section_.history_size));
     add_resultants<T>(data, q,
                       {{resultants[0], resultants[1], resultants[2]}, {resultants[3], resultants[4], resultants[5]}},
                       stress);
@@ -158,14 +159,14 @@ bool ShellGroup<corners, points>::linearize(std::int32_t element, const NodalMot
   };
   if (stiffness.empty()) {
     ShellForces<double, corners> nodal;
-    if (!internal_force<double>(record(element), make_kernel<double>(record(element), at), new_history, nodal))
+    if (!internal_force<double>(record(element), make_kernel<double>(record(element), at), law_increment(motion), new_history, nodal))
       return false;
     spread(nodal);
     return true;
   }
   ShellForces<Dual<6 * corners>, corners> nodal;
   if (!internal_force<Dual<6 * corners>>(record(element), make_kernel<Dual<6 * corners>>(record(element), at),
-                                         new_history, nodal))
+                                         law_increment(motion), new_history, nodal))
     return false;
   spread(nodal);
   spread_stiffness<corners>(nodal, stiffness);
@@ -181,8 +182,8 @@ void ShellGroup<corners, points>::stiffness_at_rest(std::int32_t element, const 
   std::vector<double> history(history_size());
   initialize_history(history);
   ShellForces<Dual<6 * corners>, corners> nodal;
-  internal_force<Dual<6 * corners>>(record(element), make_kernel<Dual<6 * corners>>(record(element), at), history,
-                                    nodal);
+  internal_force<Dual<6 * corners>>(record(element), make_kernel<Dual<6 * corners>>(record(element), at), quasi_static,
+                                    history, nodal);
   spread_stiffness<corners>(nodal, stiffness);
 }
 

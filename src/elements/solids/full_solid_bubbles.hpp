@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "elements/law_increment.hpp"
 #include "elements/nodal_packs.hpp"
 #include "elements/solids/full_solid.hpp"
 #include "materials/stretch.hpp"
@@ -132,7 +133,7 @@ bool FullSolid<Shape>::linearize_with_bubbles(std::int32_t element, const NodalM
     std::copy(old_history.begin() + own_history, old_history.end(), new_history.begin() + own_history);
     inner = {};
     for (int q = 0; q < Shape::points; ++q) {
-      material_.law->tangent(k.modified[q].component, quasi_static, law_history(new_history, q), stress[q].component,
+      material_.law->tangent(k.modified[q].component, law_increment(motion), law_history(new_history, q), stress[q].component,
                              tangent[q]);
       const auto columns = bubble_columns<Shape>(k.centre, q, record);
       inner += record[Record::point(q) + 9] * (transpose(columns) * Dense<9, 9>{tangent[q]} * columns);

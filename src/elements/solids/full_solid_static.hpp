@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "elements/law_increment.hpp"
 #include "elements/solids/full_solid.hpp"
 #include "math/dual.hpp"
 
@@ -25,7 +26,7 @@ bool FullSolid<Shape>::linearize(std::int32_t element, const NodalMotion& motion
   Tensors<double> stress;
   Tangents tangent;
   for (int q = 0; q < Shape::points; ++q)
-    material_.law->tangent(k.modified[q].component, quasi_static, law_history(new_history, q), stress[q].component,
+    material_.law->tangent(k.modified[q].component, law_increment(motion), law_history(new_history, q), stress[q].component,
                            stiffness.empty() ? std::span<double>() : tangent[q]);
   const auto nodal = Shape::nodal(full_solid_conjugates<Shape>(k, stress, 0.0, record));
   for (int i = 0; i < 3 * Shape::nodes; ++i) force[i] = nodal[i / 3][i % 3];

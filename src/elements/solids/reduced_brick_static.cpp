@@ -1,6 +1,7 @@
 // C3D8R one element at a time: force, exact tangent, energies, output.
 #include <algorithm>
 
+#include "elements/law_increment.hpp"
 #include "elements/solids/reduced_brick.hpp"
 #include "elements/solids/reduced_brick_damping.hpp"
 #include "elements/solids/solid_output.hpp"
@@ -73,7 +74,7 @@ bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, st
   new_history[0] = jacobian;
   Matrix3<double> stress;
   std::array<double, 81> tangent;
-  material_.law->tangent(f.component, quasi_static, new_history.subspan(law_row_), stress.component,
+  material_.law->tangent(f.component, law_increment(motion), new_history.subspan(law_row_), stress.component,
                          stiffness.empty() ? std::span<double>() : tangent);
   const std::vector<double> before_flow(new_history.begin(), new_history.end());
   if (flow_.active()) advance_shape(c, f, stress, record, new_history);
@@ -96,7 +97,7 @@ bool ReducedBrick::linearize(std::int32_t element, const NodalMotion& motion, st
   std::array<Derivative, HourglassFlow::law_rows> of_law;  // plastic deformation and strain
   if (flow_.active()) {
     std::array<double, 9 * HourglassFlow::law_rows> slopes;
-    material_.law->history_slopes(f.component, quasi_static, old_history.subspan(law_row_), flow_.plastic_deformation - law_row_, slopes);
+    material_.law->history_slopes(f.component, law_increment(motion), old_history.subspan(law_row_), flow_.plastic_deformation - law_row_, slopes);
     for (int i = 0; i < HourglassFlow::law_rows; ++i)
       of_law[i] = chained(before_flow[flow_.plastic_deformation + i], std::span(slopes).subspan(9 * i, 9));
   }

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "elements/law_increment.hpp"
 #include "elements/trusses/truss.hpp"
 #include "elements/trusses/truss_kernel.hpp"
 
@@ -36,7 +37,7 @@ bool TrussGroup::linearize(std::int32_t element, const NodalMotion& motion, std:
   if (damped()) new_history[strain_row()] = strain.value;
   const std::array<double, 1> strain_value{strain.value};
   std::array<double, 1> stress, tangent;
-  law_->tangent(strain_value, quasi_static, new_history.first(law_->history_size()), stress, tangent);
+  law_->tangent(strain_value, law_increment(motion), new_history.first(law_->history_size()), stress, tangent);
   const Vector3<Scalar> pull = truss_force(axis, Scalar::chain(stress[0], tangent[0], strain), area_ / length);
   for (int c = 0; c < 3; ++c) {
     force[3 + c] = pull[c].value;
