@@ -103,4 +103,24 @@ std::vector<std::int32_t> slots_of(const std::vector<PrescribedMotion>& motions)
   return slots;
 }
 
+void show_reactions(Analysis& analysis, const ImplicitDofMap& map, std::span<const double> residual) {
+  std::ranges::fill(analysis.reaction, 0.0);
+  std::ranges::fill(analysis.acceleration, 0.0);
+  std::ranges::fill(analysis.reaction_moment, 0.0);
+  std::ranges::fill(analysis.angular_acceleration, 0.0);
+  std::ranges::fill(analysis.body_angular_acceleration, Point{});
+  std::ranges::fill(analysis.body_reaction, std::array<double, 6>{});
+  for (std::int32_t slot = 0; slot < map.first_multiplier(); ++slot) {
+    if (map.role(slot) != ImplicitDofMap::Role::prescribed) continue;
+    const auto node = map.node_of(slot);
+    const auto body = analysis.reference_of(node);
+    for (int i = 0; i < 3; ++i) {
+      const double component = map.directions(node)(slot % 3, i) * residual[slot];
+      if (!map.is_rotation(slot)) analysis.reaction[4 * node + i] += component;
+      if (map.is_rotation(slot) && body < 0) analysis.reaction_moment[4 * node + i] += component;
+      if (body >= 0) analysis.body_reaction[body][map.is_rotation(slot) ? 3 + i : i] += component;
+    }
+  }
+}
+
 }  // namespace balocco

@@ -1,6 +1,7 @@
 // Motions that an implicit step prescribes, as functions of time.
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "implicit_dof_map.hpp"
@@ -28,5 +29,8 @@ struct MotionLaw {
 };
 MotionLaw motion_law(const Model& model, const Step& step, const BoundaryCondition& condition, double step_time,
                      double total_time);
+
+/// Makes what holds prescribed motions, of the forces out of balance on each slot, the reactions; accelerations become zero.
+void show_reactions(Analysis& analysis, const ImplicitDofMap& map, std::span<const double> residual);
 
 }  // namespace balocco

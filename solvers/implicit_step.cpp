@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "constraint_report.hpp"
+#include "elements/failure.hpp"
 #include "model/diagnostics.hpp"
 #include "step_driver.hpp"
 
@@ -32,6 +33,7 @@ ImplicitStep::ImplicitStep(Analysis& analysis, const Step& step, Observer& obser
       total_start_(analysis.current.total_time - analysis.current.step_time) {
   drive_.fading.assign(system_.map().slots(), 0.0);
   time_points_ = asked_times(step);
+  failed_at_start_ = analysis.communicator.sum(ElementFailures(analysis.element_groups).count(analysis.current.element_history));
 }
 
 Outcome ImplicitStep::run() {
@@ -43,8 +45,8 @@ Outcome ImplicitStep::run() {
   dependent_rows_ = of_all_ranks(analysis_, system_.map().dependent_constraint_rows());
   log_dependent_constraints(analysis_, dependent_rows_, observer_);
   if (!increments_.nonlinear_geometry && follows_geometry())
-    observer_.log(system_.has_contact() ? "  contact needs iterations: the step runs as if NLGEOM=YES"
-                                        : "  laws that remember, ropes, springs with tables or large displacements before need "
+    observer_.log(system_.has_contact() ? "  warning: contact needs iterations: the step runs as if NLGEOM=YES"
+                                        : "  warning: laws that remember, ropes, springs with tables or large displacements before need "
                                           "iterations: the step runs as if NLGEOM=YES");
   log_notes();
   const auto outcome = march();
@@ -179,27 +181,6 @@ void ImplicitStep::add_work(const IncrementGoal& goal) {
   system_.add_guide_work();
 }
 
-void ImplicitStep::store_reactions() {
-  const auto& map = system_.map();
-  std::ranges::fill(analysis_.reaction, 0.0);
-  std::ranges::fill(analysis_.acceleration, 0.0);
-  std::ranges::fill(analysis_.reaction_moment, 0.0);
-  std::ranges::fill(analysis_.angular_acceleration, 0.0);
-  std::ranges::fill(analysis_.body_angular_acceleration, Point{});
-  std::ranges::fill(analysis_.body_reaction, std::array<double, 6>{});
-  for (std::int32_t slot = 0; slot < map.first_multiplier(); ++slot) {
-    if (map.role(slot) != ImplicitDofMap::Role::prescribed) continue;
-    const auto node = map.node_of(slot);
-    const auto body = analysis_.reference_of(node);
-    for (int i = 0; i < 3; ++i) {
-      const double component = map.directions(node)(slot % 3, i) * residual_[slot];
-      if (!map.is_rotation(slot)) analysis_.reaction[4 * node + i] += component;
-      if (map.is_rotation(slot) && body < 0) analysis_.reaction_moment[4 * node + i] += component;
-      if (body >= 0) analysis_.body_reaction[body][map.is_rotation(slot) ? 3 + i : i] += component;
-    }
-  }
-}
-
 void ImplicitStep::finish_increment(const IncrementGoal& goal) {
   auto& state = analysis_.current;
   if (follows_geometry()) {
@@ -209,12 +190,23 @@ void ImplicitStep::finish_increment(const IncrementGoal& goal) {
     residual_ = linear_.residual();
   }
   refuse_contradictions(analysis_, dependent_rows_, system_.model_size());
+  refuse_failures();
   conclude(goal);
   fresh_ = false;
   state.step_time = goal.step_time;
   state.total_time = goal.total_time;
   ++state.increment;
   system_.begin_increment();
+}
+
+/// Only the explicit loop goes on without what fails.
+void ImplicitStep::refuse_failures() const {
+  const auto failed = analysis_.communicator.sum(ElementFailures(analysis_.element_groups).count(analysis_.current.element_history));
+  if (failed > failed_at_start_)
+    throw AnalysisError(fmt::format("step '{}', increment {}: the plastic strain of *SHEAR FAILURE is reached in {} element{}, which {} "
+                                    "does not delete; go on by *DYNAMIC, EXPLICIT from before that",
+                                    step_.name, analysis_.current.increment + 1, failed - failed_at_start_,
+                                    failed - failed_at_start_ == 1 ? "" : "s", step_.procedure_name()));
 }
 
 void ImplicitStep::fail(double time_increment, const std::string& reason) const {

@@ -41,7 +41,7 @@ class ImplicitStep {
   void find_starts_of_motions();
   void find_applied_forces(double step_time, std::vector<double>& applied) const;
   void add_work(const IncrementGoal& goal);
-  void store_reactions();
+  void store_reactions() { show_reactions(analysis_, system_.map(), residual_); }
   bool follows_geometry() const { return !analysis_.current.linear; }
 
   Analysis& analysis_;
@@ -63,9 +63,11 @@ class ImplicitStep {
   double next_increment(double suggested) const;
   [[noreturn]] void fail(double time_increment, const std::string& reason) const;
   void finish_increment(const IncrementGoal& goal);
+  void refuse_failures() const;
   double remaining_time() const { return step_.duration() - analysis_.current.step_time; }
 
   double total_start_ = 0.0;
+  std::int64_t failed_at_start_ = 0;          // elements of all ranks that *SHEAR FAILURE has deleted
   std::vector<double> time_points_;           // at which results are asked for: increments end there, unless they are fixed
   std::vector<std::int32_t> dependent_rows_;  // of State::multiplier
 };

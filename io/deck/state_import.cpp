@@ -79,6 +79,10 @@ bool is_of_one_state(const StateImport& import, bool state, bool update, std::op
 }
 
 void read_import(Builder& builder, const Block& block) {
+  if (builder.model.nodes.size() == 0)
+    return builder.error(block, block.location,
+                         "the mesh is missing: a checkpoint holds the state alone; say nodes, elements and sections as the first deck did, "
+                         "by *INCLUDE, INPUT=FIRST.inp or what of it they stand in, before this line");
   const bool state = block.value("STATE", "YES") == "YES", update = block.value("UPDATE") == "YES";
   if (state && update)
     builder.error(

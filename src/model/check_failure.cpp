@@ -71,16 +71,8 @@ Errors check_failure(const Model& model) {
   const bool any = std::ranges::any_of(model.sections, [&](const auto& section) { return failing_material(model, section) != nullptr; });
   if (!any) return errors;
   check_elements(model, errors);
-  for (const auto& step : model.steps) {
-    check_pressures(model, step, errors);
-    if (std::holds_alternative<ExplicitProcedure>(step.procedure)) continue;
-    for (const auto& section : model.sections)
-      if (const Material* material = failing_material(model, section); material != nullptr)
-        errors.emplace_back(material->location,
-                            fmt::format("*SHEAR FAILURE: material {} deletes elements, which step {} ({}) cannot; use *DYNAMIC, EXPLICIT "
-                                        "or remove *SHEAR FAILURE",
-                                        material->name, step.name, step.procedure_name()));
-  }
+  for (const auto& step : model.steps)
+    if (std::holds_alternative<ExplicitProcedure>(step.procedure)) check_pressures(model, step, errors);
   return errors;
 }
 

@@ -1,2 +1,2 @@
 # *SHEAR FAILURE: elements that fail are deleted.
-verification_cases(failure 120 pulled ranks)
+verification_cases(failure 120 pulled preloaded ranks)

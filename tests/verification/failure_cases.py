@@ -159,6 +159,31 @@ ALLIE, ALLPD, ALLWK, ALLKE, ALLAE, ETOTAL
     return text + STEEL + "*BOUNDARY\nLEFT, 1, 3\n" + "".join(step.format(name=name, end=4e-5 if solid else 2.4e-5, pulled=pulled) for name in ("FIRST", "SECOND"))
 
 
+def preloaded(run):
+    """A static step may preload what an explicit step then tears, at the same strain; elements that it strains as far end it."""
+    folder = None
+    for kind, mesh in (("C3D8R", CUBE), ("T3D2", ROD)):
+        strain = FAILURE + YIELD / YOUNG
+        pull = lambda reach: "*STEP, NLGEOM\n*STATIC\n0.1, 1.\n*BOUNDARY\nLEFT, 1\nRIGHT, 1, 1, %.15g\n*END STEP\n" % math.expm1(reach * strain)
+        tear = ("*AMPLITUDE, NAME=PULL, DEFINITION=SMOOTH STEP\n0., %.15g, 1e-3, 0.1\n*STEP\n*DYNAMIC, EXPLICIT\n, 1e-3\n"
+                "*BOUNDARY, AMPLITUDE=PULL\nRIGHT, 1, 1, 1.\n*OUTPUT, FIELD, NUMBER INTERVAL=50\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nSTATUS\n"
+                "*END STEP\n" % math.expm1(0.2 * strain))
+        job = run(mesh + STEEL + pull(0.2) + tear, 1)
+        folder = job.folder
+        with h5py.File(folder / f"{job.name}.h5") as file:
+            frames = sorted((k for k in file["step_2"] if k.startswith("frame_")), key=lambda k: int(k[6:]))
+            status = np.array([np.array(file[f"step_2/{f}/element/{kind}/STATUS"]).ravel()[0] for f in frames])
+            moved = np.array([np.array(file[f"step_2/{f}/node/U"])[1, 0] for f in frames])
+        check("%s stands after the preload" % kind, status[0], 1.0, 0.0)
+        check("%s fails" % kind, status[-1], 0.0, 0.0)
+        gone = int(np.argmin(status))
+        check("%s fails where it must" % kind, float(moved[gone - 1] <= math.expm1(strain) <= moved[gone] * (1.0 + 1e-9)), 1.0, 0.0)
+        (folder / "too_far.inp").write_text(mesh + STEEL + pull(1.5))
+        done = subprocess.run([*on_ranks(2), job.balocco, "run", str(folder / "too_far.inp"), "--output", str(folder)], capture_output=True, text=True)
+        check("too far: status", done.returncode, 3.0, 0.0)
+        check("too far: told", (done.stdout + done.stderr).count("the plastic strain of *SHEAR FAILURE is reached in 1 element, which static does not delete"), 1.0, 0.0)
+
+
 def ranks(run):
     """A strip that tears has the same bits on one, two and three ranks, and after a restart between the ranks' numbers."""
     for kind in ("C3D8R", "S4R"):
