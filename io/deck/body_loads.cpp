@@ -22,6 +22,7 @@ struct Label {
   const char* magnitude;  // what the first number is
   std::array<double, 3> direction{};
   bool by_length = false;  // of a line: becomes a force by volume
+  bool by_volume = false;  // density * omega^2: becomes omega^2
 };
 
 const std::array labels{Label{"GRAV", BodyLoad::Kind::gravity, "acceleration"},
@@ -31,7 +32,8 @@ const std::array labels{Label{"GRAV", BodyLoad::Kind::gravity, "acceleration"},
                         Label{"BZ", BodyLoad::Kind::volume_force, "force by volume", {0.0, 0.0, 1.0}},
                         Label{"PX", BodyLoad::Kind::volume_force, "force by length", {1.0, 0.0, 0.0}, true},
                         Label{"PY", BodyLoad::Kind::volume_force, "force by length", {0.0, 1.0, 0.0}, true},
-                        Label{"PZ", BodyLoad::Kind::volume_force, "force by length", {0.0, 0.0, 1.0}, true}};
+                        Label{"PZ", BodyLoad::Kind::volume_force, "force by length", {0.0, 0.0, 1.0}, true},
+                        Label{"CENT", BodyLoad::Kind::centrifugal, "density * square of the angular velocity", {}, false, true}};
 
 const Label* find_label(const std::string& name) {
   const auto found = std::ranges::find_if(labels, [&](const Label& label) { return name == label.name; });
@@ -91,8 +93,20 @@ void read_numbers(Row& row, const Label& label, BodyLoad& load) {
   }
 }
 
-/// Sets of the lines of an element or a set, one for each area of their sections. Told where something else is among them.
-std::map<double, std::int32_t> lines_by_area(Builder& builder, const Block& block, Row& row) {
+/// Area of a line's section; 0 of anything else.
+double area_of(const Model& model, const ElementTable& table, std::int32_t section) {
+  const bool beam = table.type->section == Section::Kind::beam;
+  if (!beam && table.type->section != Section::Kind::truss) return 0.0;
+  return beam ? beam_area(model.sections[section].beam).area : model.sections[section].area;
+}
+
+double density_of(const Model& model, const ElementTable&, std::int32_t section) {
+  const auto material = model.sections[section].material;
+  return material < 0 ? 0.0 : model.materials[material].density;
+}
+
+/// Sets of an element or a set, one for each area or density, by which the load is divided. Told where an element has none.
+std::map<double, std::int32_t> sets_by_divisor(Builder& builder, const Block& block, Row& row, bool by_length) {
   std::vector<ElementRef> elements;
   std::map<double, std::int32_t> sets;
   if (!builder.elements_of(row.text(0), block, row.location(), elements)) return sets;
@@ -100,20 +114,21 @@ std::map<double, std::int32_t> lines_by_area(Builder& builder, const Block& bloc
   for (const auto element : elements) {
     const auto& table = builder.model.elements[element.table];
     const auto section = table.section[element.row];
-    const bool beam = table.type->section == Section::Kind::beam;
-    if (section < 0 || (!beam && table.type->section != Section::Kind::truss)) {
-      row.error(fmt::format("element {} of type {} cannot take the load {}, a force by length; load beams or trusses with a section",
-                            builder.model.element_name(element), table.type->name, row.name(1)));
+    const double divisor = section < 0 ? 0.0 : (by_length ? area_of : density_of)(builder.model, table, section);
+    if (!(divisor > 0.0)) {
+      row.error(fmt::format("element {} of type {} cannot take the load {}, a force by {}", builder.model.element_name(element),
+                            table.type->name, row.name(1),
+                            by_length ? "length; load beams or trusses with a section"
+                                      : "volume; load elements of a material with *DENSITY, or give CENTRIF and omega^2"));
       return {};
     }
-    const auto& data = builder.model.sections[section];
-    found[beam ? beam_area(data.beam).area : data.area].push_back(element);
+    found[divisor].push_back(element);
   }
-  for (const auto& [area, members] : found) {
-    sets[area] = builder.element_set_row(fmt::format("_DLOAD-{}-{}", row.name(0), sets.size()));
-    if (!builder.elements_in(sets[area]).empty()) continue;  // made by a line before
-    for (const auto element : members) builder.add_to_element_set(sets[area], element);
-    builder.elements_in(sets[area]);
+  for (const auto& [divisor, members] : found) {
+    sets[divisor] = builder.element_set_row(fmt::format("_DLOAD-{}-{}{}", row.name(0), by_length ? "" : "DENSITY-", sets.size()));
+    if (!builder.elements_in(sets[divisor]).empty()) continue;  // made by a line before
+    for (const auto element : members) builder.add_to_element_set(sets[divisor], element);
+    builder.elements_in(sets[divisor]);
   }
   return sets;
 }
@@ -156,10 +171,10 @@ void read_body_load(Builder& builder, const Block& block, Row& row, std::int32_t
   load.line = row.location().line;
   builder.draft.said.insert({load.file, load.line});
   const double magnitude = scaled(builder, amplitude, load.magnitude);
-  if (label.by_length) {
-    for (const auto& [area, set] : lines_by_area(builder, block, row)) {
+  if (label.by_length || label.by_volume) {
+    for (const auto& [divisor, set] : sets_by_divisor(builder, block, row, label.by_length)) {
       load.element_set = set;
-      load.magnitude = magnitude / area;
+      load.magnitude = magnitude / divisor;
       set_body_load(builder, load);
     }
     return;

@@ -2,7 +2,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
+#include <span>
 
 #include "deck/builder.hpp"
 #include "deck/groups.hpp"
@@ -110,6 +112,10 @@ const MaterialLaw* chosen_law(Builder& builder, const Block& block) {
   return nullptr;
 }
 
+constexpr std::array one_for_all_temperatures{"temperature"};
+/// Temperatures are not followed: the factor 1 - (temperature between transition and melting)^m stays 1.
+constexpr std::array thermal_softening{"m", "melting temperature", "transition temperature"};
+
 bool within(const ParameterSpec& spec, double value) {
   return value > spec.minimum && value < spec.maximum;
 }
@@ -120,9 +126,9 @@ std::string out_of_range(const ParameterSpec& spec, double value) {
 }
 
 /// Reads the declared values from data line `line` on, eight to a line as Abaqus has them; `line` is then the next one.
-/// What is left out at the end is zero where that is in range.
+/// What is left out at the end is zero where that is in range. Behind them may stand numbers that have no effect, called `unused`.
 std::optional<std::vector<double>> read_values(Builder& builder, const Block& block, std::size_t& line,
-                                               const std::vector<ParameterSpec>& specs) {
+                                               const std::vector<ParameterSpec>& specs, std::span<const char* const> unused) {
   std::vector<double> values;
   int field = 0;
   std::optional<Row> row;
@@ -145,8 +151,9 @@ std::optional<std::vector<double>> read_values(Builder& builder, const Block& bl
     values.push_back(value);
     ++field;
   }
-  if (row->has(field)) row->real(field, "temperature");  // one set holds for all temperatures
-  row->at_most(field + 1);
+  for (const char* name : unused)
+    if (row->has(field++)) row->real(field - 1, name);
+  row->at_most(field);
   return row->ok() ? std::optional(values) : std::nullopt;
 }
 
@@ -181,7 +188,7 @@ void read_law(Builder& builder, const Block& block) {
   material.instantaneous = squeeze(block.value("MODULI")) == "INSTANTANEOUS";
   if (block.lines.empty()) return builder.error(block, block.location, "the parameters are missing; add a data line");
   std::size_t line = 0;
-  const auto values = read_values(builder, block, line, law->parameters);
+  const auto values = read_values(builder, block, line, law->parameters, one_for_all_temperatures);
   if (!values) return;
   material.parameters = *values;
   if (line < block.lines.size()) no_tables(builder, block, block.lines[line].location);
@@ -240,6 +247,12 @@ std::vector<ParameterSpec> columns_of(const OptionSpec& option, const MaterialOp
   return columns;
 }
 
+void warn_of_softening(Builder& builder, const Block& block, std::size_t exponent) {
+  Row row(builder, block, block.lines[0]);
+  if (!row.has(static_cast<int>(exponent)) || row.real_or(static_cast<int>(exponent), 0.0, "m") == 0.0) return;
+  builder.warning(block, row.location(), "temperatures are not followed: the factor of thermal softening, with m, is 1");
+}
+
 void read_option(Builder& builder, const Block& block) {
   const OptionSpec* option = chosen_option(builder, block);
   if (option == nullptr) return;
@@ -254,9 +267,12 @@ void read_option(Builder& builder, const Block& block) {
   }
   if (block.lines.empty()) return builder.error(block, block.location, "the parameters are missing; add a data line");
   const auto columns = columns_of(*option, result);
+  const bool softens = option->name == "plastic-johnson-cook";
+  const auto unused = softens ? std::span<const char* const>(thermal_softening) : std::span<const char* const>(one_for_all_temperatures);
+  if (softens) warn_of_softening(builder, block, columns.size());
   std::size_t line = 0;
   do {
-    const auto values = read_values(builder, block, line, columns);
+    const auto values = read_values(builder, block, line, columns, unused);
     if (!values) return;
     result.rows.push_back(*values);
   } while (option->table && line < block.lines.size());

@@ -39,7 +39,7 @@ void read_modal_dynamic(Builder& builder, const Block& block) {
 void read_modal_damping(Builder& builder, const Block& block) {
   auto* procedure = std::get_if<ModalDynamicProcedure>(&builder.model.steps.back().procedure);
   if (procedure == nullptr) return builder.error(block, block.location, "only *MODAL DYNAMIC has it; put it behind that keyword");
-  const bool rayleigh = block.has("RAYLEIGH");
+  const bool rayleigh = block.has("RAYLEIGH") || block.value("VISCOUS") == "RAYLEIGH";
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
     ModalDynamicProcedure::Damping damping;
@@ -61,7 +61,7 @@ const RegisterKeyword modal_dynamic{{"MODAL DYNAMIC",
                                      Place::step,
                                      {foreign("SOLVER"), choice("DIRECT", {"YES", "NO"}), real("DELTMX")},
                                      read_modal_dynamic}};
-const RegisterKeyword modal_damping{{"MODAL DAMPING", Phase::history, Place::step, {flag("RAYLEIGH")}, read_modal_damping}};
+const RegisterKeyword modal_damping{{"MODAL DAMPING", Phase::history, Place::step, {flag("RAYLEIGH"), optional_choice("MODAL", {"DIRECT"}), choice("VISCOUS", {"FRACTION OF CRITICAL DAMPING", "RAYLEIGH"})}, read_modal_damping}};
 
 }  // namespace
 

@@ -102,6 +102,10 @@ void read_output(Builder& builder, const Block& block) {
   block.has("HISTORY") ? begin_history(builder, block) : begin_field(builder, block);
 }
 
+// Of kinds of elements that a model may be without, while a block of requests serves many models.
+const Words of_some_elements{"S",   "LE",  "MISES", "SENER", "ELSE", "ELASE", "SM",  "SK", "STH",
+                             "CTF", "CEF", "CVF",   "CRF",   "CSF",  "CCF",   "CU",  "CV", "CP"};
+
 /// A group of one element of each table and section, to ask which variables exist.
 std::vector<std::unique_ptr<ElementGroup>> sample_groups(const Model& model) {
   std::vector<std::unique_ptr<ElementGroup>> groups;
@@ -157,7 +161,7 @@ void finish_output(Builder& builder) {
   };
   for (const auto& [variable, location] : builder.asked_element_variables) {
     if (exists(variable)) continue;
-    if (is_abaqus_only(variable)) {
+    if (is_abaqus_only(variable) || contains(of_some_elements, variable)) {
       builder.diagnostics.warning(location, "ELEMENT OUTPUT",
                                   fmt::format("variable {} does not exist in this model and is not written", variable));
     } else {

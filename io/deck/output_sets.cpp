@@ -1,4 +1,6 @@
 // *NODE OUTPUT *ELEMENT OUTPUT.
+#include <fmt/format.h>
+
 #include "deck/output_words.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
@@ -93,7 +95,9 @@ void read_element_field(Builder& builder, const Block& block) {
   const auto set = block.has("ELSET") ? element_set(builder, block) : -1;
   if (!set) return;
   auto& output = field_for(builder, &FieldOutput::element_set, *set);
-  const bool at_points = squeeze(block.value("POSITION")) == "INTEGRATIONPOINTS";
+  const auto position = squeeze(block.value("POSITION"));
+  const bool at_nodes = position.ends_with("NODES"), at_points = at_nodes || position == "INTEGRATIONPOINTS";
+  if (at_nodes) builder.warning(block, block.location, fmt::format("POSITION={} is not supported: written at the integration points", block.value("POSITION")));
   auto& target = at_points ? output.integration_point_variables : output.element_variables;
   for (const auto& variable : asked_by_variable(block, preselected_element, all_element)) add(target, variable);
   each_variable(builder, block, [&](const std::string& variable, Row& row) {
@@ -127,7 +131,7 @@ const RegisterKeyword element_output{
     {"ELEMENT OUTPUT",
      Phase::history,
      Place::step,
-     {name("ELSET"), variable_rule(), choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL"}), choice("DIRECTIONS", {"YES", "NO"})},
+     {name("ELSET"), variable_rule(), choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL", "NODES", "AVERAGED AT NODES"}), choice("DIRECTIONS", {"YES", "NO"})},
      read_element_output,
      "OUTPUT"}};
 

@@ -43,8 +43,16 @@ std::optional<PrintOutput> begin_print(Builder& builder, const Block& block, Pri
   return output;
 }
 
+/// A component of a vector or tensor stands for the whole of it, as with *OUTPUT.
+std::string printed_whole(const std::string& word, PrintOutput::Kind kind) {
+  if (kind == PrintOutput::Kind::elements) return whole_variable(word);
+  const bool numbered = word.size() > 1 && word.back() >= '1' && word.back() <= '3';
+  return numbered && contains(printed_of_nodes, word.substr(0, word.size() - 1)) ? word.substr(0, word.size() - 1) : word;
+}
+
 void read_variables(Builder& builder, const Block& block, const Words& known, PrintOutput& output) {
-  each_variable(builder, block, [&](const std::string& variable, Row& row) {
+  each_variable(builder, block, [&](const std::string& word, Row& row) {
+    const auto variable = printed_whole(word, output.kind);
     if (!contains(known, variable))
       return row.error(fmt::format("variable {} cannot be printed{}; known: {}", variable,
                                    did_you_mean(variable, known), join(known)));

@@ -43,6 +43,7 @@ void read_restart(Builder& builder, const Block& block) {
   const bool by_intervals = block.has("NUMBER INTERVAL");
   auto& every = builder.in_step ? builder.model.steps.back().checkpoint_frequency : builder.checkpoint_frequency;
   auto& number = builder.in_step ? builder.model.steps.back().checkpoint_number_interval : builder.checkpoint_number_interval;
+  builder.checkpoints_by_procedure = !by_intervals && !block.has("FREQUENCY");
   every = by_intervals ? std::nullopt : unless_zero(frequency);
   number = by_intervals ? unless_zero(intervals) : std::nullopt;
 }

@@ -127,6 +127,8 @@ void read_rotary_inertia(Builder& builder, const Block& block) {
 void read_section_controls(Builder& builder, const Block& block) {
   SectionControls controls;
   if (block.value("HOURGLASS") == "STIFFNESS") controls.hourglass = HourglassControl::stiffness;
+  if (block.value("DISTORTION CONTROL") == "YES")
+    builder.warning(block, block.location, "DISTORTION CONTROL is not supported: elements that are squeezed flat end the run");
   controls.pointwise_dilatation = block.value("DILATATION") == "POINTWISE";
   if (!block.lines.empty()) {
     Row row(builder, block, block.lines[0]);
@@ -161,12 +163,13 @@ const RegisterKeyword membrane{
 const RegisterKeyword mass{{"MASS", Phase::sections, Place::model, {required(name("ELSET"))}, read_mass}};
 const RegisterKeyword rotary{
     {"ROTARY INERTIA", Phase::sections, Place::model, {required(name("ELSET"))}, read_rotary_inertia}};
-// SECOND ORDER ACCURACY chooses nothing here: the kinematics are exact either way.
+// SECOND ORDER ACCURACY chooses nothing here, for the kinematics are exact either way; nor does ELEMENT DELETION=YES, for what fails is deleted.
 const RegisterKeyword section_controls{{"SECTION CONTROLS",
                                         Phase::definitions,
                                         Place::model,
                                         {required(name("NAME")), choice("HOURGLASS", {"ENHANCED", "STIFFNESS"}),
-                                         choice("SECOND ORDER ACCURACY", {"YES", "NO"}), choice("DILATATION", {"MEAN", "POINTWISE"})},
+                                         choice("SECOND ORDER ACCURACY", {"YES", "NO"}), choice("DILATATION", {"MEAN", "POINTWISE"}),
+                                         choice("ELEMENT DELETION", {"YES"}), choice("DISTORTION CONTROL", {"YES", "NO"}), real("LENGTH RATIO")},
                                         read_section_controls}};
 
 }  // namespace

@@ -19,6 +19,7 @@ struct StepDraft {
   bool has_procedure = false;
   // Said by *STEP and by keywords that may stand before the procedure's own; the procedure takes what is its own.
   bool nonlinear_geometry = false;
+  bool asks_linear_geometry = false;  // NLGEOM=NO
   std::int32_t maximum_increments = 100;
   bool perturbation = false;
   ImplicitControls controls;  // go on from step to step, like NLGEOM

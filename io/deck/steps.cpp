@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <numbers>
 
 #include "deck/builder.hpp"
 #include "deck/mass_scaling.hpp"
@@ -128,6 +129,7 @@ void begin_step(Builder& builder, const Block& block) {
       builder.error(block, block.location, "NLGEOM=NO cannot follow a step with large displacements; remove it");
     }
     draft.nonlinear_geometry = asked;
+    draft.asks_linear_geometry = !asked;
   }
   draft.perturbation = block.has("PERTURBATION");
   if (builder.static_perturbation)
@@ -182,6 +184,13 @@ void begin_static_perturbation(Builder& builder, const Block& block) {
                 "PERTURBATION is supported with *FREQUENCY, and with *STATIC in the first step; remove it (steps without NLGEOM superpose)");
 }
 
+/// Checkpoints of which nobody says when: in each implicit increment, and at the end of an explicit step, as Abaqus has them.
+void default_checkpoints(Step& step) {
+  const bool is_explicit = std::holds_alternative<ExplicitProcedure>(step.procedure);
+  step.checkpoint_frequency = is_explicit ? std::nullopt : std::optional(1);
+  step.checkpoint_number_interval = is_explicit ? std::optional(1) : std::nullopt;
+}
+
 void end_step(Builder& builder, const Block& block) {
   if (!builder.draft.has_procedure && !builder.draft.faulty) {
     builder.error(block, builder.draft.location, "the step has no procedure; add *STATIC, *DYNAMIC or *FREQUENCY");
@@ -196,6 +205,7 @@ void end_step(Builder& builder, const Block& block) {
   if (step.seeks_modes()) end_search_for_modes(builder, step);
   if (auto* statics = std::get_if<StaticProcedure>(&step.procedure)) statics->controls = builder.draft.controls;
   if (auto* dynamics = std::get_if<DynamicProcedure>(&step.procedure)) dynamics->controls = builder.draft.controls;
+  if (builder.checkpoints_by_procedure) default_checkpoints(step);
   end_mass_scaling(builder);
   if (!builder.draft.bulk_viscosity) return;
   if (auto* procedure = std::get_if<ExplicitProcedure>(&step.procedure)) {
@@ -268,6 +278,9 @@ bool has_none(Builder& builder, const Block& block, std::initializer_list<const 
   return true;
 }
 
+/// Alpha of APPLICATION=MODERATE DISSIPATION: beta = (1 - alpha)^2 / 4 = 0.5, gamma = 0.5 - alpha = 0.91421.
+constexpr double moderate_dissipation = 1.0 - std::numbers::sqrt2;
+
 void read_implicit_dynamic(Builder& builder, const Block& block) {
   auto& procedure = current_step(builder).procedure.emplace<DynamicProcedure>();
   if (!has_none(builder, block, {"DIRECT USER CONTROL", "SCALE FACTOR", "ENERGY ERROR"}, "belongs to *DYNAMIC, EXPLICIT; remove it")) return;
@@ -276,7 +289,9 @@ void read_implicit_dynamic(Builder& builder, const Block& block) {
       return builder.error(block, block.location,
                            fmt::format("material {} has *DAMPING, BETA, which this procedure does not count; give ALPHA, a dashpot or *VISCOELASTIC",
                                        material.name));
-  procedure.alpha = block.real("ALPHA", procedure.alpha);
+  const bool moderate = squeeze(block.value("APPLICATION")) == "MODERATEDISSIPATION";
+  procedure.alpha = block.real("ALPHA", moderate ? moderate_dissipation : procedure.alpha);
+  if (moderate && !block.has("ALPHA")) return read_increments(builder, block, procedure);
   if (!(procedure.alpha >= -1.0 / 3.0 && procedure.alpha <= 0.0))
     builder.error(block, block.location, fmt::format("ALPHA={} must lie between -1/3 and 0; correct it", procedure.alpha));
   read_increments(builder, block, procedure);
@@ -288,6 +303,8 @@ void read_dynamic(Builder& builder, const Block& block) {
   if (!has_none(builder, block, {"ALPHA"}, "belongs to *DYNAMIC without EXPLICIT; remove it")) return;
   Step& step = current_step(builder);
   auto& procedure = step.procedure.emplace<ExplicitProcedure>();
+  if (builder.draft.asks_linear_geometry)
+    builder.warning(block, block.location, "displacements are always finite here: NLGEOM=NO of the step changes nothing");
   builder.draft.nonlinear_geometry = true;
   procedure.scale_factor = block.real("SCALE FACTOR", 1.0);
   if (!(procedure.scale_factor > 0.0 && procedure.scale_factor <= 1.0)) {
@@ -347,7 +364,7 @@ const RegisterKeyword static_analysis{
 const RegisterKeyword dynamic{{"DYNAMIC",
                                Phase::history,
                                Place::step,
-                               {flag("EXPLICIT"), real("ALPHA"), flag("DIRECT USER CONTROL"), flag("DIRECT"), choice("APPLICATION", {"TRANSIENT FIDELITY"}),
+                               {flag("EXPLICIT"), real("ALPHA"), flag("DIRECT USER CONTROL"), flag("DIRECT"), choice("APPLICATION", {"TRANSIENT FIDELITY", "MODERATE DISSIPATION"}),
                                 foreign("ELEMENT BY ELEMENT"), foreign("IMPROVED DT METHOD"), foreign("GLOBAL"),
                                 foreign("SOLVER"), real("SCALE FACTOR"), real("ENERGY ERROR")},
                                read_dynamic}};

@@ -233,6 +233,69 @@ TEST(DeckStep, ComponentsStandForTheirVariables) {
   EXPECT_NE(errors.find("no element of the model has the variable S44"), std::string::npos) << errors;
 }
 
+TEST(DeckStep, PrintedComponentsStandForTheirVariables) {
+  const auto step = steps_of("*STEP\n*STATIC\n*NODE PRINT, NSET=ALLN\nU1, RF3, U2, RF\n*EL PRINT, ELSET=ALL\nS11, S22\n*END STEP\n")[0];
+  EXPECT_EQ(step.print_outputs[0].variables, (std::vector<std::string>{"U", "RF"}));
+  EXPECT_EQ(step.print_outputs[1].variables, (std::vector<std::string>{"S"}));
+  EXPECT_NE(errors_of(brick + "*STEP\n*STATIC\n*NODE PRINT, NSET=ALLN\nU4\n*END STEP\n"), "");
+}
+
+/// A general block of requests serves models without shells; where Abaqus would extrapolate to nodes, points are written.
+TEST(DeckStep, RequestsThatCannotBeMetAreTold) {
+  const auto result = read(brick + "*STEP\n*STATIC\n*OUTPUT, FIELD\n*ELEMENT OUTPUT, POSITION=AVERAGED AT NODES\nS, SM, SK, STH\n*END STEP\n");
+  EXPECT_EQ(result.model.steps[0].field_outputs[0].integration_point_variables, (std::vector<std::string>{"S"}));
+  EXPECT_EQ(result.warnings.size(), 4u);
+}
+
+TEST(DeckStep, CheckpointsThatSayNotWhenFollowTheProcedure) {
+  const std::string explicit_step = "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-6\n";
+  const auto steps = steps_of("*STEP\n*STATIC\n*RESTART, WRITE\n*END STEP\n" + explicit_step + "*END STEP\n" + explicit_step +
+                              "*RESTART, WRITE, FREQUENCY=7\n*END STEP\n" + explicit_step + "*END STEP\n");
+  EXPECT_EQ(steps[0].checkpoint_frequency, 1);
+  EXPECT_FALSE(steps[0].checkpoint_number_interval);
+  EXPECT_FALSE(steps[1].checkpoint_frequency);
+  EXPECT_EQ(steps[1].checkpoint_number_interval, 1);
+  for (const int step : {2, 3}) {
+    EXPECT_EQ(steps[step].checkpoint_frequency, 7);
+    EXPECT_FALSE(steps[step].checkpoint_number_interval);
+  }
+}
+
+TEST(DeckStep, ExplicitStepsTellThatTheyAreNotLinear) {
+  EXPECT_EQ(read(brick + "*STEP, NLGEOM=NO\n*DYNAMIC, EXPLICIT\n, 1e-6\n*END STEP\n").warnings.size(), 1u);
+  EXPECT_TRUE(read(brick + "*STEP\n*DYNAMIC, EXPLICIT\n, 1e-6\n*END STEP\n").warnings.empty());
+}
+
+/// CENT is CENTRIF times the density.
+TEST(DeckStep, CentrifugalForcesByVolume) {
+  const auto loads = steps_of("*STEP\n*STATIC\n*DLOAD\nALL, CENT, 7.8E-5, 0., 0., 0., 0., 0., 2.\n*END STEP\n")[0].body_loads;
+  ASSERT_EQ(loads.size(), 1u);
+  EXPECT_NEAR(loads[0].magnitude, 1e4, 1e-9);
+  EXPECT_EQ(loads[0].kind, BodyLoad::Kind::centrifugal);
+  EXPECT_EQ(loads[0].direction, (std::array<double, 3>{0.0, 0.0, 1.0}));
+}
+
+TEST(DeckStep, DissipationOfApplications) {
+  const std::string step = "*STEP\n*DYNAMIC, APPLICATION=MODERATE DISSIPATION%s\n0.1, 1.\n*END STEP\n";
+  const auto alpha = [&](const std::string& more) {
+    auto text = step;
+    text.replace(text.find("%s"), 2, more);
+    return std::get<DynamicProcedure>(steps_of(text)[0].procedure).alpha;
+  };
+  EXPECT_NEAR(alpha(""), -0.41421, 1e-5);
+  EXPECT_EQ(alpha(", ALPHA=-0.1"), -0.1);
+}
+
+TEST(DeckStep, DampingOfModesBothWaysOfSayingIt) {
+  const std::string before = "*STEP\n*FREQUENCY\n1\n*END STEP\n*STEP\n*MODAL DYNAMIC\n0.1, 1.\n*MODAL DAMPING, ";
+  const auto damping = [&](const std::string& said) {
+    return std::get<ModalDynamicProcedure>(steps_of(before + said + "\n1, 2, 0.03\n*END STEP\n")[1].procedure).damping[0];
+  };
+  EXPECT_EQ(damping("VISCOUS=FRACTION OF CRITICAL DAMPING").fraction, 0.03);
+  EXPECT_EQ(damping("MODAL=DIRECT").fraction, 0.03);
+  EXPECT_EQ(damping("VISCOUS=RAYLEIGH").alpha, 0.03);
+}
+
 TEST(DeckStep, LinesTakeForcesByLength) {
   const std::string bar = "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 2., 0., 0.\n*ELEMENT, TYPE=B31, ELSET=A\n1, 1, 2\n*ELEMENT, TYPE=T3D2, ELSET=B\n2, 2, 3\n"
                           "*ELSET, ELSET=LINES\nA, B\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n*BEAM SECTION, SECTION=RECT, ELSET=A, MATERIAL=M\n2., 3.\n"

@@ -178,5 +178,30 @@ TEST(UsersDecks, FrictionTablesOfOneLineHold) {
   EXPECT_EQ(model.interactions[0].friction, 0.2);
 }
 
+/// The centroid lies at 12.21304...: what the message tells is accepted, and so are four digits.
+TEST(UsersDecks, TheHeightOfACentroidMayBeRounded) {
+  const auto deck = [](const std::string& height) {
+    return "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n*ELEMENT, TYPE=B31, ELSET=A\n1, 1, 2\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n"
+           "*BEAM SECTION, SECTION=I, ELSET=A, MATERIAL=M\n" + height + ", 20., 8., 12., 1., 2., 1.5\n0., 1., 0.\n" + static_step;
+  };
+  EXPECT_NE(errors_of(deck("12.")).find("l = 12.213;"), std::string::npos);
+  for (const std::string height : {"12.213", "12.21", "12.2130434783"}) EXPECT_EQ(errors_of(deck(height)), "") << height;
+}
+
+TEST(UsersDecks, ThermalSofteningIsToldToHaveNoEffect) {
+  const auto deck = [](const std::string& more) { return replaced(brick, "*DENSITY", "*PLASTIC, HARDENING=JOHNSON COOK\n300., 400., 0.3" + more + "\n*DENSITY") + static_step; };
+  for (const std::string more : {"", ", 0.", ", 0., 0., 0."}) EXPECT_EQ(warnings_of(deck(more)), "") << more;
+  for (const std::string more : {", 1.03", ", 1.03, 1793., 293."}) {
+    EXPECT_NE(warnings_of(deck(more)).find("the factor of thermal softening, with m, is 1"), std::string::npos) << more;
+    EXPECT_EQ(read(deck(more)).model.materials[0].options[0].rows[0], (std::vector<double>{300., 400., 0.3}));
+  }
+  EXPECT_NE(errors_of(deck(", 1., 2., 3., 4.")), "");
+}
+
+TEST(UsersDecks, ControlsOfDeletionAndDistortionAreNoReasonToRefuse) {
+  EXPECT_EQ(warnings_of(brick + "*SECTION CONTROLS, NAME=C, ELEMENT DELETION=YES\n" + static_step), "");
+  EXPECT_NE(warnings_of(brick + "*SECTION CONTROLS, NAME=C, DISTORTION CONTROL=YES, LENGTH RATIO=0.1\n" + static_step).find("DISTORTION CONTROL"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace balocco
