@@ -36,6 +36,8 @@ class Eigenmodes {
   std::vector<EigenPair> least_positive(int number);
   /// A value near zero against all that counts, and below the zeros of rigid motions. Collective.
   double small_shift() const;
+  /// A value beyond all that counts. Collective.
+  double great_shift() const { return -1e18 * small_shift(); }
 
  private:
   void factorize_shifted(double value, KSP solver);

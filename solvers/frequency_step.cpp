@@ -34,6 +34,7 @@ class FrequencyStep {
  private:
   void assemble();
   void symmetrize();
+  [[noreturn]] void refuse_stillness() const;
   EigenRange range(Eigenmodes& modes) const;
   Mode mode_of(const EigenPair& pair, std::int32_t number);
   void normalize(Mode& mode) const;
@@ -82,6 +83,12 @@ void FrequencyStep::symmetrize() {
     observer_.log(fmt::format("  warning: the stiffness is not symmetric (a load that follows, or friction on a body that turns): modes of its "
                               "symmetric part, {:.1e} of it left out",
                               skew / whole));
+}
+
+void FrequencyStep::refuse_stillness() const {
+  throw AnalysisError(
+      fmt::format("step '{}': every freedom of the model is held, by *BOUNDARY{}: nothing can vibrate; free what shall vibrate", step_.name,
+                  system_.map().multipliers() > 0 ? ", equations, ties or connectors" : ""));
 }
 
 EigenRange FrequencyStep::range(Eigenmodes& modes) const {
@@ -227,8 +234,11 @@ void FrequencyStep::run() {
   observer_.log(fmt::format("step {} '{}': frequency, about {}, {} equations", analysis_.current.step + 1, step_.name,
                             analysis_.current.linear ? "the reference configuration" : "the present state",
                             system_.map().equations()));
+  if (system_.map().equations() == 0) refuse_stillness();
   assemble();
   Eigenmodes solver(system_.stiffness().matrix(), mass_.matrix(), system_.map().multipliers(), analysis_.communicator);
+  // Constraints may hold all that boundary conditions leave; stops that are open count among them but hold nothing.
+  if (system_.map().equations() <= 2 * system_.map().multipliers() && solver.count_below(solver.great_shift()) <= 0) refuse_stillness();
   const auto wanted = range(solver);
   const int negative = solver.count_below(solver.small_shift());
   std::vector<Mode> modes;

@@ -214,7 +214,7 @@ NodeMotion ImplicitDofMap::spin_by(std::int32_t first_slot) const {
 }
 
 std::string ImplicitDofMap::describe(std::int32_t slot) const {
-  const auto id = analysis_.model.nodes.id[analysis_.domain.node_row[node_of(slot)]];
+  const auto id = analysis_.model.node_name(analysis_.domain.node_row[node_of(slot)]);
   if (is_multiplier(slot)) return fmt::format("a constraint of node {}", id);
   return fmt::format("node {}, dof {}", id, slot % 3 + (is_rotation(slot) ? 4 : 1));
 }
@@ -225,11 +225,12 @@ std::string ImplicitDofMap::describe_equation(PetscInt equation) const {
   std::array<std::int64_t, 2> found{-1, -1};
   if (mine) {
     const auto slot = owned_free_slots_[local];
-    found = {analysis_.model.nodes.id[analysis_.domain.node_row[node_of(slot)]],
+    found = {analysis_.domain.node_row[node_of(slot)],
              is_multiplier(slot) ? 0 : slot % 3 + (is_rotation(slot) ? 4 : 1)};
   }
   MPI_Allreduce(MPI_IN_PLACE, found.data(), 2, MPI_INT64_T, MPI_MAX, analysis_.communicator.handle());
-  return found[1] == 0 ? fmt::format("a constraint of node {}", found[0]) : fmt::format("node {}, dof {}", found[0], found[1]);
+  const auto name = analysis_.model.node_name(static_cast<std::int32_t>(found[0]));
+  return found[1] == 0 ? fmt::format("a constraint of node {}", name) : fmt::format("node {}, dof {}", name, found[1]);
 }
 
 }  // namespace balocco

@@ -306,8 +306,22 @@ def tied_column(runner):
         close(modes(finer, 2)[0].attrs["eigenvalue"], 169.1926, 1e-3, "load factor")
 
 
+def held(runner):
+    """A model whose every freedom is held, by conditions or by a constraint behind them, is told as such."""
+    tied = "*EQUATION\n2\n2, 1, 1., 1, 1, -1."
+    for constraint, held_nodes, told in (("", "NALL, 1, 3\n", "by *BOUNDARY: nothing can vibrate"),
+                                         (tied, "NALL, 2, 3\n1, 1\n", "by *BOUNDARY, equations, ties or connectors: nothing can vibrate")):
+        for ranks in (1, 2):
+            deck = rod(2, 1.0)
+            deck.add(constraint)
+            deck.add(MODES % ("", "1", "*BOUNDARY\n3, 1\n" + held_nodes))
+            done, _ = runner.launch("held", deck, ranks)
+            assert done.returncode == 3, done.stdout + done.stderr
+            assert (done.stdout + done.stderr).count(told) == 1, done.stdout + done.stderr
+
+
 CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent,
-                                                strip_buckled, euler_column, tied_column, shaft, sliding)}
+                                                strip_buckled, euler_column, tied_column, shaft, sliding, held)}
 CASES["cantilever"] = cantilever_modes
 
 if __name__ == "__main__":
