@@ -237,8 +237,8 @@ void AlphaMethod::add_forces(InertiaKind kind, ImplicitStiffness* stiffness, dou
   });
 }
 
-void AlphaMethod::add_damping(ImplicitStiffness& stiffness, std::span<double> force) const {
-  add_forces(InertiaKind::damping, &stiffness, velocity_tangent_, force);
+void AlphaMethod::add_damping(ImplicitStiffness* stiffness, std::span<double> force) const {
+  add_forces(InertiaKind::damping, stiffness, velocity_tangent_, force);
 }
 
 void AlphaMethod::add_inertia(ImplicitStiffness* stiffness, std::span<double> force) const {

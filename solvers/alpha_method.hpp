@@ -52,9 +52,10 @@ class AlphaMethod {
   /// What the functions below add, in their order.
   void record_damping(ImplicitStiffness& stiffness) const;
   void record_inertia(ImplicitStiffness& stiffness) const;
-  /// Add mass-proportional damping, and inertia, to the forces of this rank's nodes (slots along global axes) and to the stiffness.
-  void add_damping(ImplicitStiffness& stiffness, std::span<double> force) const;
-  void add_inertia(ImplicitStiffness* stiffness, std::span<double> force) const;  // null: to the forces alone
+  /// Add mass-proportional damping, and inertia, to the forces of this rank's nodes (slots along global axes) and to the stiffness
+  /// (null: to the forces alone).
+  void add_damping(ImplicitStiffness* stiffness, std::span<double> force) const;
+  void add_inertia(ImplicitStiffness* stiffness, std::span<double> force) const;
   /// What spinning bodies add to the stiffness. Their centripetal and gyroscopic forces are in add_inertia().
   void add_body_stiffness(ImplicitStiffness& stiffness) const;
 

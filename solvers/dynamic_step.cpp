@@ -31,9 +31,12 @@ class DynamicStep : public ImplicitStep {
   void set_velocity(std::int32_t slot, double velocity);
   void add_convective_gaps(std::vector<double>& gaps);
   void find_reactions(std::span<const double> forces);
+  std::vector<double> damping_forces();
+  void add_damping_work();
   AlphaMethod& method() { return *system_.dynamics(); }
 
   std::vector<double> prediction_;
+  std::vector<double> damping_;  // mass-proportional, at the end of the last increment: per slot, global axes
   std::int64_t freed_increment_ = -1;  // whose accelerations are those without contact
 };
 
@@ -54,6 +57,7 @@ void DynamicStep::find_start() {
     system_.begin_increment();
     find_accelerations();
   }
+  damping_ = damping_forces();
   find_applied_forces(state.step_time, applied_);
   system_.begin_increment();
 }
@@ -215,6 +219,23 @@ void DynamicStep::find_reactions(std::span<const double> forces) {
   for (std::size_t slot = 0; slot < residual_.size(); ++slot) residual_[slot] += inertia[slot];
 }
 
+/// Of the velocities that the method found last. Collective.
+std::vector<double> DynamicStep::damping_forces() {
+  std::vector<double> forces(static_cast<std::size_t>(system_.map().slots()), 0.0);
+  method().add_damping(nullptr, forces);
+  system_.exchange().sum(forces);
+  return forces;
+}
+
+/// By the trapezoidal rule, as the work of loads is counted.
+void DynamicStep::add_damping_work() {
+  const auto& map = system_.map();
+  auto damping = damping_forces();
+  for (std::int32_t slot = 0; slot < map.first_multiplier(); ++slot)
+    analysis_.current.nodal_work[map.node_of(slot)].damping += 0.5 * (damping_[slot] + damping[slot]) * system_.moved(slot)[slot % 3];
+  damping_ = std::move(damping);
+}
+
 void DynamicStep::conclude(const IncrementGoal& goal) {
   const auto forces = follows_geometry() ? system_.forces() : find_forces(goal.step_time, goal.total_time);
   method().follow();
@@ -223,6 +244,7 @@ void DynamicStep::conclude(const IncrementGoal& goal) {
     for (std::size_t slot = 0; slot < forces.size(); ++slot) with_contact[slot] += system_.contact_forces()[slot];
   find_reactions(with_contact);
   add_work(goal);
+  add_damping_work();
   store_reactions();
   method().commit(forces);
 }

@@ -58,7 +58,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   guides_.aim(analysis_, request.step_time, request.total_time, request.initial_loads);
   add_constraints();
   add_stabilization(request);
-  if (dynamics_) dynamics_->add_damping(stiffness_, residual_);
+  if (dynamics_) dynamics_->add_damping(&stiffness_, residual_);
   exchange_.sum(residual_);
   exchange_.sum(external_);
   for (std::size_t slot = 0; slot < residual_.size(); ++slot) residual_[slot] -= external_[slot];
