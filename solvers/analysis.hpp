@@ -53,6 +53,7 @@ class Analysis : public ResultSource {
   double undeformed_increment = 1e300;             // smallest stable increment of the undeformed elements, over all ranks
   NodalDirections directions;
   std::vector<Mode> modes;                         // of the last frequency step of this run
+  std::int32_t step_of_modes = -1;                 // that step's row of Model::steps
   State current;
 
   /// What happens once when a step starts afresh: attaches and releases what it says, from where the nodes stand; contact

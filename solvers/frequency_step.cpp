@@ -124,7 +124,7 @@ void FrequencyStep::normalize(Mode& mode) const {
   if (std::abs(size) < 1e-10 * system_.model_size() * std::abs(turn)) size = turn;
   if (procedure_.normalization == FrequencyProcedure::Normalization::mass)
     size = std::copysign(std::sqrt(mode.generalized_mass), size);
-  for (auto* shape : {&mode.displacement, &mode.rotation})
+  for (auto* shape : {&mode.displacement, &mode.rotation, &mode.slots})
     for (double& value : *shape) value /= size;
   mode.generalized_mass /= square(size);
   for (double& value : mode.participation) value *= size;
@@ -160,7 +160,8 @@ Mode FrequencyStep::mode_of(const EigenPair& pair, std::int32_t number) {
   Mode mode{.number = number, .eigenvalue = pair.value};
   mode.frequency = pair.value > 0.0 ? std::sqrt(pair.value) / (2.0 * std::numbers::pi) : 0.0;
   find_participation(mode, pair.vector);
-  std::vector<double> slots(map.slots(), 0.0);
+  auto& slots = mode.slots;
+  slots.assign(map.slots(), 0.0);
   system_.exchange().from_equations(pair.vector, slots);
   mode.displacement.assign(3 * analysis_.domain.size(), 0.0);
   mode.rotation.assign(3 * analysis_.domain.size(), 0.0);
@@ -247,6 +248,7 @@ void FrequencyStep::run() {
   system_.restore(here);
   for (const auto& mode : modes) observer_.mode_found(mode);
   analysis_.modes = modes;
+  analysis_.step_of_modes = analysis_.current.step;
   log_table(modes);
   log_stability(modes, negative, solver.small_shift());
   observer_.log(fmt::format("  {:.2f} s", MPI_Wtime() - begin));

@@ -2,12 +2,14 @@
 // increments loads go on straight lines, for which the modes' equations are solved exactly: dashpots couple them.
 #include <fmt/format.h>
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <unsupported/Eigen/MatrixFunctions>
 
+#include "constraints/rigid_body.hpp"
 #include "math/rotation.hpp"
+#include "modal_forces.hpp"
 #include "model/diagnostics.hpp"
 #include "procedures.hpp"
 #include "step_driver.hpp"
@@ -28,22 +30,26 @@ class ModalDynamicStep {
   Outcome run();
 
  private:
-  Matrix dashpots() const;
-  Matrix damping() const;
+  void add_modal_damping();
   double load_change(double from, double to) const;
   double next_increment(double last) const;
   void make_propagator(double increment);
-  Vector forces(double step_time, double total_time) const;
-  void show();
+  void advance(double increment, const Vector& before, const Vector& after);
+  void show(const State& kept, const Vector& loads);
+  void show_bodies();
 
   Analysis& analysis_;
   const Step& step_;
   const ModalDynamicProcedure& procedure_;
   Observer& observer_;
   std::vector<Mode> modes_;  // of generalised mass 1
+  std::unique_ptr<ModalForces> forces_;
+  Matrix damping_;
+  Vector stiffness_;  // eigenvalues
   Vector amplitude_, velocity_;
+  double work_ = 0.0, dissipated_ = 0.0;  // of the loads, in damping
   std::vector<double> time_points_;
-  Matrix propagator_;  // of amplitudes, velocities, forces and the forces' rates over an increment
+  Matrix propagator_;  // of amplitudes' integrals, amplitudes, velocities, forces and the forces' rates over an increment
 };
 
 ModalDynamicStep::ModalDynamicStep(Analysis& analysis, const Step& step, Observer& observer)
@@ -57,54 +63,23 @@ ModalDynamicStep::ModalDynamicStep(Analysis& analysis, const Step& step, Observe
                                     step.name));
   for (auto& mode : modes_) {
     const double size = std::sqrt(mode.generalized_mass);
-    for (auto* shape : {&mode.displacement, &mode.rotation})
+    for (auto* shape : {&mode.displacement, &mode.rotation, &mode.slots})
       for (double& value : *shape) value /= size;
   }
-  amplitude_ = velocity_ = Vector::Zero(static_cast<Eigen::Index>(modes_.size()));
+  amplitude_ = velocity_ = stiffness_ = Vector::Zero(static_cast<Eigen::Index>(modes_.size()));
+  for (std::size_t mode = 0; mode < modes_.size(); ++mode) stiffness_[static_cast<Eigen::Index>(mode)] = modes_[mode].eigenvalue;
+  forces_ = std::make_unique<ModalForces>(analysis, modes_);
+  damping_ = forces_->damping();
+  add_modal_damping();
   time_points_ = asked_times(step);
 }
 
-/// What elements without mass resist velocities with, as the modes feel it: the part of their stiffness that grows with velocity_slope.
-Matrix ModalDynamicStep::dashpots() const {
-  const auto count = static_cast<Eigen::Index>(modes_.size());
-  Matrix sum = Matrix::Zero(count, count);
-  const std::vector<double> still(4 * (static_cast<std::size_t>(analysis_.domain.size()) + 1), 0.0);
-  NodalMotion motion = analysis_.current.motion();
-  motion.velocity = motion.angular_velocity = still.data();
-  for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index) {
-    const auto& group = *analysis_.element_groups[index];
-    const auto kind = analysis_.model.sections[group.section()].kind;
-    if (kind != Section::Kind::dashpot && kind != Section::Kind::connector) continue;
-    const auto freedoms = static_cast<std::size_t>(group.freedoms_per_node()), size = freedoms * group.nodes_per_element();
-    std::vector<double> history(group.history_size()), unused(group.history_size()), force(size);
-    Matrix with(size, size), without(size, size), shapes(size, count);
-    for (std::int32_t element = 0; element < group.size(); ++element) {
-      if (!analysis_.takes_part(group, element)) continue;
-      group.gather_history(element, analysis_.current.element_history[index], history);
-      for (const auto& [slope, block] : {std::pair{1.0, &with}, std::pair{1e-300, &without}}) {
-        motion.velocity_slope = slope;
-        group.linearize(element, motion, history, unused, force, std::span(block->data(), size * size));
-      }
-      for (std::size_t row = 0; row < size; ++row)
-        for (Eigen::Index mode = 0; mode < count; ++mode) {
-          const auto& shape = row % freedoms < 3 ? modes_[mode].displacement : modes_[mode].rotation;
-          shapes(row, mode) = shape[3 * group.nodes(element)[row / freedoms] + row % freedoms % 3];
-        }
-      sum += shapes.transpose() * (with - without) * shapes;
-    }
-  }
-  analysis_.communicator.sum(std::span<double>(sum.data(), static_cast<std::size_t>(sum.size())));
-  return sum;
-}
-
-Matrix ModalDynamicStep::damping() const {
-  Matrix sum = dashpots();
+void ModalDynamicStep::add_modal_damping() {
   for (const auto& given : procedure_.damping)
     for (std::int32_t number = given.first; number <= std::min<std::int32_t>(given.last, static_cast<std::int32_t>(modes_.size())); ++number) {
       const double square = std::max(modes_[number - 1].eigenvalue, 0.0);
-      sum(number - 1, number - 1) += 2.0 * given.fraction * std::sqrt(square) + given.alpha + given.beta * square;
+      damping_(number - 1, number - 1) += 2.0 * given.fraction * std::sqrt(square) + given.alpha + given.beta * square;
     }
-  return sum;
 }
 
 /// The greatest change of a load of the step between two of its times.
@@ -142,41 +117,40 @@ double ModalDynamicStep::next_increment(double last) const {
   return rest < (1.0 + 1e-6) * increment ? rest : increment;
 }
 
-/// Exponential of the first-order system: amplitudes q, their velocities, forces f and the rates of these, which are constant.
+/// Exponential of the first-order system: integrals of the amplitudes q, these, their velocities, forces f and the rates of these,
+/// which are constant.
 void ModalDynamicStep::make_propagator(double increment) {
   const auto n = static_cast<Eigen::Index>(modes_.size());
-  Matrix system = Matrix::Zero(4 * n, 4 * n);
+  Matrix system = Matrix::Zero(5 * n, 5 * n);
   system.block(0, n, n, n).setIdentity();
-  for (Eigen::Index mode = 0; mode < n; ++mode) system(n + mode, mode) = -modes_[mode].eigenvalue;
-  system.block(n, n, n, n) = -damping();
   system.block(n, 2 * n, n, n).setIdentity();
+  system.block(2 * n, n, n, n) = -stiffness_.asDiagonal().toDenseMatrix();
+  system.block(2 * n, 2 * n, n, n) = -damping_;
   system.block(2 * n, 3 * n, n, n).setIdentity();
+  system.block(3 * n, 4 * n, n, n).setIdentity();
   propagator_ = (increment * system).exp();
 }
 
-/// Loads of an instant, as the modes feel them where the state stands. Collective.
-Vector ModalDynamicStep::forces(double step_time, double total_time) const {
-  const auto& domain = analysis_.domain;
-  std::vector<double> force(4 * (static_cast<std::size_t>(domain.size()) + 1), 0.0), moment(4 * static_cast<std::size_t>(domain.turning), 0.0);
-  std::vector<Point> of_bodies(analysis_.model.rigid_bodies.size());
-  add_external_forces(analysis_, step_, step_time, total_time, analysis_.current.position.data(), {force.data(), moment.data()}, of_bodies);
-  Vector sum = Vector::Zero(static_cast<Eigen::Index>(modes_.size()));
-  for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
-    const auto& [displacement, rotation] = std::tie(modes_[mode].displacement, modes_[mode].rotation);
-    for (std::int32_t node = 0; node < domain.size(); ++node)
-      for (int i = 0; i < 3; ++i) {
-        sum[mode] += displacement[3 * node + i] * force[4 * node + i];
-        if (node < domain.turning) sum[mode] += rotation[3 * node + i] * moment[4 * node + i];
-        const auto body = analysis_.reference_of(node);
-        if (body >= 0 && domain.owned[node]) sum[mode] += rotation[3 * node + i] * of_bodies[body][i];
-      }
-  }
-  analysis_.communicator.sum(std::span<double>(sum.data(), static_cast<std::size_t>(sum.size())));
-  return sum;
+/// Over an increment in which forces go from `before` to `after`. The solution is exact, and so are the work of the forces, their
+/// product with the velocities integrated by parts, and what of it the modes do not keep.
+void ModalDynamicStep::advance(double increment, const Vector& before, const Vector& after) {
+  const auto n = amplitude_.size();
+  const auto energy = [&] { return 0.5 * (velocity_.squaredNorm() + amplitude_.dot(stiffness_.cwiseProduct(amplitude_))); };
+  const double energy_before = energy(), work_before = before.dot(amplitude_);
+  const Vector rate = (after - before) / increment;
+  Vector system(5 * n);
+  system << Vector::Zero(n), amplitude_, velocity_, before, rate;
+  system = propagator_ * system;
+  amplitude_ = system.segment(n, n);
+  velocity_ = system.segment(2 * n, n);
+  const double work = after.dot(amplitude_) - work_before - rate.dot(system.head(n));
+  work_ += work;
+  if (!damping_.isZero(0.0)) dissipated_ += work - (energy() - energy_before);
 }
 
-/// The response alone, about the reference configuration, for whoever writes results.
-void ModalDynamicStep::show() {
+/// The response alone, about the reference configuration, for whoever writes results. What the modes know is of the whole
+/// structure: one node of all stands for it.
+void ModalDynamicStep::show(const State& kept, const Vector& loads) {
   auto& state = analysis_.current;
   const auto combined = [&](auto shape, const Vector& factors, std::size_t at) {
     double sum = 0.0;
@@ -197,14 +171,50 @@ void ModalDynamicStep::show() {
     const double* const turn = &state.rotation[4 * node];
     std::ranges::copy(exponential(Vector3<double>{{turn[0], turn[1], turn[2]}}), &state.orientation[4 * node]);
   }
+  show_bodies();
+  forces_->show_multipliers(amplitude_);
+  forces_->show(amplitude_, velocity_, loads - damping_ * velocity_ - stiffness_.cwiseProduct(amplitude_));
+  analysis_.kinetic_energy = analysis_.communicator.rank() == 0 ? 0.5 * velocity_.squaredNorm() : 0.0;
+  if (const auto node = analysis_.domain.local_node[0]; node >= 0) {
+    state.nodal_work[node].external = kept.nodal_work[node].external + work_;
+    state.nodal_work[node].damping = kept.nodal_work[node].damping + dissipated_;
+  }
+}
+
+void ModalDynamicStep::show_bodies() {
+  auto& bodies = analysis_.current.rigid_bodies;
+  const auto at_rest = initial_rigid_bodies(analysis_.model);
+  for (std::size_t body = 0; body < bodies.size(); ++body) {
+    const auto node = static_cast<std::size_t>(analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node]);
+    auto& shown = bodies[body];
+    Point turn{}, spin{};
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
+        turn[i] += amplitude_[static_cast<Eigen::Index>(mode)] * modes_[mode].rotation[3 * node + i];
+        spin[i] += velocity_[static_cast<Eigen::Index>(mode)] * modes_[mode].rotation[3 * node + i];
+      }
+    shown.orientation = at_rest[body].orientation;
+    shown.rotation = {};
+    rotate(shown, turn);
+    shown.angular_velocity = spin;
+    std::copy_n(&analysis_.current.position[4 * node], 3, shown.position.begin());
+    std::copy_n(&analysis_.current.velocity[4 * node], 3, shown.velocity.begin());
+  }
 }
 
 Outcome ModalDynamicStep::run() {
   auto& state = analysis_.current;
   const State kept = state;
-  observer_.log(fmt::format("step {} '{}': modal dynamics, {} modes", state.step + 1, step_.name, modes_.size()));
+  const auto outputs = [&] {
+    return std::tie(analysis_.acceleration, analysis_.reaction, analysis_.angular_acceleration, analysis_.reaction_moment,
+                    analysis_.body_reaction, analysis_.body_angular_acceleration);
+  };
+  const auto kept_outputs = std::apply([](const auto&... values) { return std::tuple(values...); }, outputs());
   const double total_start = state.total_time;
-  Vector before = forces(0.0, total_start);
+  Vector before = forces_->loads(step_, 0.0, total_start);
+  forces_->show(amplitude_, velocity_, before);
+  observer_.step_started(analysis_, state.step);
+  observer_.log(fmt::format("step {} '{}': modal dynamics, {} modes", state.step + 1, step_.name, modes_.size()));
   double last = 0.0;
   // What is written is the response alone: the loads act where the state stands, and are found before that is shown.
   bool go_on = true;
@@ -218,19 +228,14 @@ Outcome ModalDynamicStep::run() {
     last = increment;
     const double step_time = ends ? procedure_.duration : shown.step_time + increment;
     state = kept;
-    const Vector after = forces(step_time, total_start + step_time);
-    const auto n = amplitude_.size();
-    Vector system(4 * n);
-    system << amplitude_, velocity_, before, (after - before) / increment;
-    system = propagator_ * system;
-    amplitude_ = system.head(n);
-    velocity_ = system.segment(n, n);
+    const Vector after = forces_->loads(step_, step_time, total_start + step_time);
+    advance(increment, before, after);
     before = after;
     state.linear = state.dynamic = true;
     state.increment = shown.increment + 1;
     state.step_time = step_time;
     state.total_time = total_start + step_time;
-    show();
+    show(kept, after);
     go_on = observer_.advanced(analysis_, {.increment = state.increment,
                                            .step_time = step_time,
                                            .total_time = state.total_time,
@@ -239,6 +244,7 @@ Outcome ModalDynamicStep::run() {
   }
   const auto [increment, step_time, total_time] = std::tuple(state.increment, state.step_time, state.total_time);
   state = kept;
+  outputs() = kept_outputs;
   state.increment = increment;
   state.step_time = step_time;
   state.total_time = total_time;
@@ -249,7 +255,6 @@ Outcome ModalDynamicStep::run() {
 
 Outcome run_modal_dynamic_step(Analysis& analysis, const Step& step, Observer& observer) {
   if (analysis.current.increment == 0) analysis.start_step(step);
-  observer.step_started(analysis, analysis.current.step);
   return ModalDynamicStep(analysis, step, observer).run();
 }
 

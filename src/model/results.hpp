@@ -97,6 +97,7 @@ struct Mode {
   /// Of motions along and turns about the global axes: shape * mass * motion / generalised mass; that squared times it.
   std::array<double, 6> participation{}, effective_mass{};
   std::vector<double> displacement, rotation;  // 3 a node
+  std::vector<double> slots;                   // of this rank's equations and held freedoms, forces of constraints among them
 };
 
 class Observer {
