@@ -36,6 +36,7 @@ class DynamicStep : public ImplicitStep {
   AlphaMethod& method() { return *system_.dynamics(); }
 
   std::vector<double> prediction_;
+  const bool damps_ = std::ranges::any_of(analysis_.model.materials, [](const Material& material) { return material.damping_alpha > 0.0; });
   std::vector<double> damping_;  // mass-proportional, at the end of the last increment: per slot, global axes
   std::int64_t freed_increment_ = -1;  // whose accelerations are those without contact
 };
@@ -57,7 +58,7 @@ void DynamicStep::find_start() {
     system_.begin_increment();
     find_accelerations();
   }
-  damping_ = damping_forces();
+  if (damps_) damping_ = damping_forces();
   find_applied_forces(state.step_time, applied_);
   system_.begin_increment();
 }
@@ -244,7 +245,7 @@ void DynamicStep::conclude(const IncrementGoal& goal) {
     for (std::size_t slot = 0; slot < forces.size(); ++slot) with_contact[slot] += system_.contact_forces()[slot];
   find_reactions(with_contact);
   add_work(goal);
-  add_damping_work();
+  if (damps_) add_damping_work();
   store_reactions();
   method().commit(forces);
 }

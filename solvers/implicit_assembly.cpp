@@ -239,20 +239,22 @@ void ImplicitSystem::add_contact(bool sticks) {
   const auto closed_before = trial_contact_;
   contact_force_.assign(residual_.size(), 0.0);
   sticking_.assign(residual_.size(), 0.0);
-  turned_points_ = 0;
+  std::array<double, 3> counts{};
+  auto& [turned, closed, changed] = counts;
   for (const auto pair : step_.active_contact_pairs)
     for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) add_contact_point(pair, point, sticks);
-  std::int64_t closed = 0, changed = 0;
   for (const auto pair : step_.active_contact_pairs)
     for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) {
       if (!analysis_.domain.owned[analysis_.contacts[pair].nodes()[point]]) continue;
       const bool now = trial_contact_[pair][point].closed > 0.0, before = closed_before[pair][point].closed > 0.0;
+      turned += slips_[pair][point].turns_back() ? 1 : 0;
       closed += now ? 1 : 0;
       changed += now != before ? 1 : 0;
     }
-  turned_points_ = analysis_.communicator.sum(turned_points_);
-  closed_points_ = analysis_.communicator.sum(closed);
-  changed_points_ = analysis_.communicator.sum(changed);
+  if (has_contact()) analysis_.communicator.sum(std::span<double>(counts));
+  turned_points_ = static_cast<std::int64_t>(turned);
+  closed_points_ = static_cast<std::int64_t>(closed);
+  changed_points_ = static_cast<std::int64_t>(changed);
 }
 
 void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point, bool sticks) {
@@ -293,9 +295,7 @@ void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point, bo
   }
   const std::array motions{map_.motion(node), map_.motion(reference), map_.spin(body)};
   stiffness_.add(motions, block_);
-  if (!slips.turns_back()) return;
-  ++turned_points_;
-  stiffness_.add_product(motions, block_, slips.now.component, sticking_);
+  if (slips.turns_back()) stiffness_.add_product(motions, block_, slips.now.component, sticking_);
 }
 
 void ImplicitSystem::add_stabilization(const AssemblyRequest& request) {

@@ -122,7 +122,7 @@ bool ImplicitNewton::evaluate(const IncrementGoal& goal) {
   if (sound) {
     auto& product = system_.stiffness().product();
     system_.exchange().sum(product);
-    system_.exchange().sum(system_.sticking());
+    if (system_.turned_points() > 0) system_.exchange().sum(system_.sticking());
     const double faded = 1.0 - goal.step_time / step_.duration();
     const auto& map = system_.map();
     for (std::int32_t slot = 0; slot < map.slots(); ++slot)

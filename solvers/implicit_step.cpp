@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "constraint_report.hpp"
-#include "elements/failure.hpp"
 #include "model/diagnostics.hpp"
 #include "step_driver.hpp"
 
@@ -30,10 +29,12 @@ ImplicitStep::ImplicitStep(Analysis& analysis, const Step& step, Observer& obser
       solver_(system_.stiffness().matrix(), analysis, system_.map()),
       newton_(analysis, step, system_, solver_, drive_, observer),
       linear_(analysis, step, system_, solver_, drive_),
-      total_start_(analysis.current.total_time - analysis.current.step_time) {
+      total_start_(analysis.current.total_time - analysis.current.step_time),
+      failures_(analysis.element_groups) {
   drive_.fading.assign(system_.map().slots(), 0.0);
   time_points_ = asked_times(step);
-  failed_at_start_ = analysis.communicator.sum(ElementFailures(analysis.element_groups).count(analysis.current.element_history));
+  some_can_fail_ = analysis.communicator.any(failures_.any());
+  if (some_can_fail_) failed_at_start_ = count_failures();
 }
 
 Outcome ImplicitStep::run() {
@@ -201,7 +202,7 @@ void ImplicitStep::finish_increment(const IncrementGoal& goal) {
 
 /// Only the explicit loop goes on without what fails.
 void ImplicitStep::refuse_failures() const {
-  const auto failed = analysis_.communicator.sum(ElementFailures(analysis_.element_groups).count(analysis_.current.element_history));
+  const auto failed = some_can_fail_ ? count_failures() : 0;
   if (failed > failed_at_start_)
     throw AnalysisError(fmt::format("step '{}', increment {}: the plastic strain of *SHEAR FAILURE is reached in {} element{}, which {} "
                                     "does not delete; go on by *DYNAMIC, EXPLICIT from before that",

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "elements/failure.hpp"
 #include "implicit_linear_solver.hpp"
 #include "implicit_newton.hpp"
 #include "implicit_prescribed.hpp"
@@ -63,10 +64,13 @@ class ImplicitStep {
   double next_increment(double suggested) const;
   [[noreturn]] void fail(double time_increment, const std::string& reason) const;
   void finish_increment(const IncrementGoal& goal);
+  std::int64_t count_failures() const { return analysis_.communicator.sum(failures_.count(analysis_.current.element_history)); }
   void refuse_failures() const;
   double remaining_time() const { return step_.duration() - analysis_.current.step_time; }
 
   double total_start_ = 0.0;
+  ElementFailures failures_;
+  bool some_can_fail_ = false;
   std::int64_t failed_at_start_ = 0;          // elements of all ranks that *SHEAR FAILURE has deleted
   std::vector<double> time_points_;           // at which results are asked for: increments end there, unless they are fixed
   std::vector<std::int32_t> dependent_rows_;  // of State::multiplier

@@ -127,7 +127,7 @@ void read_rotary_inertia(Builder& builder, const Block& block) {
 void read_section_controls(Builder& builder, const Block& block) {
   SectionControls controls;
   if (block.value("HOURGLASS") == "STIFFNESS") controls.hourglass = HourglassControl::stiffness;
-  if (block.value("DISTORTION CONTROL") == "YES")
+  if (block.value("DISTORTION CONTROL") == "YES" || (block.has("LENGTH RATIO") && !block.has("DISTORTION CONTROL")))
     builder.warning(block, block.location, "DISTORTION CONTROL is not supported: elements that are squeezed flat end the run");
   controls.pointwise_dilatation = block.value("DILATATION") == "POINTWISE";
   if (!block.lines.empty()) {

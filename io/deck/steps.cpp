@@ -300,7 +300,7 @@ void read_implicit_dynamic(Builder& builder, const Block& block) {
 void read_dynamic(Builder& builder, const Block& block) {
   if (!begin_procedure(builder, block)) return;
   if (!block.has("EXPLICIT")) return read_implicit_dynamic(builder, block);
-  if (!has_none(builder, block, {"ALPHA"}, "belongs to *DYNAMIC without EXPLICIT; remove it")) return;
+  if (!has_none(builder, block, {"ALPHA", "APPLICATION"}, "belongs to *DYNAMIC without EXPLICIT; remove it")) return;
   Step& step = current_step(builder);
   auto& procedure = step.procedure.emplace<ExplicitProcedure>();
   if (builder.draft.asks_linear_geometry)

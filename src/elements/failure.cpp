@@ -32,6 +32,10 @@ void ElementFailures::rest(std::size_t index, std::span<const double> history) c
   group.set_acting(std::move(acting));
 }
 
+bool ElementFailures::any() const {
+  return std::ranges::any_of(rows_, [](const auto& rows) { return !rows.empty(); });
+}
+
 std::int64_t ElementFailures::count(std::span<const std::vector<double>> history) const {
   std::int64_t count = 0;
   for (std::size_t group = 0; group < rows_.size(); ++group)

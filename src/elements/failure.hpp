@@ -27,6 +27,8 @@ class ElementFailures {
  public:
   explicit ElementFailures(std::span<const std::unique_ptr<ElementGroup>> groups);
 
+  /// Whether elements of this rank can fail.
+  bool any() const;
   bool failed(std::size_t group, std::int32_t element, std::span<const double> history) const;
   /// Lets the acting elements of a group rest that have failed, from the next cycle on.
   void rest(std::size_t group, std::span<const double> history) const;
