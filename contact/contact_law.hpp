@@ -14,12 +14,18 @@
 
 namespace balocco {
 
+/// Stiffness of a stiff or implicit spring over that of the pair: under a pressure p the penetration is then p h / (10 M), h and M being
+/// those of the layer of elements behind the slave (slave_surface.hpp).
+inline constexpr double stiff_factor = 20.0;
+
 struct PenaltyParameters {
   double stiffness = 0.0;     // force per length, normal, and the most that the tangential spring has
+  double tangential = 0.0;    // what the tangential spring has at most; 0: as `stiffness`
   double friction = 0.0;      // Coulomb's coefficient
   double elastic_slip = 0.0;  // stretch of the tangential spring at the limit of sticking; 0: as `stiffness` makes it
   double shear_limit = std::numeric_limits<double>::infinity();  // of friction, a force
 
+  double tangential_spring() const { return tangential > 0.0 ? tangential : stiffness; }
   /// The force at which a point slips.
   template <class T>
   T sliding_limit(const T& pressure) const {
@@ -45,36 +51,39 @@ inline void open(ContactPoint& point, const Vector3<double>& place) {
   point.stiff_friction = {};
 }
 
-/// Tangential part of the force: spring from the anchor, cut at Coulomb's limit; slipping drags the anchor along, and
-/// closing brings it down to the surface. Work done in slipping, limit x slip, goes to the dissipation (backward
-/// Euler).
+/// Force of the tangential spring of a stretch in the tangential plane, cut at Coulomb's limit. Work done in slipping, limit x slip, goes
+/// to the dissipation (backward Euler). @return the part of the stretch that the spring can hold: 1 where the point sticks.
+template <class T>
+double add_tangential_spring(const PenaltyParameters& parameters, const Vector3<T>& stretch, ContactPoint& point, ContactForce<T>& force) {
+  const T limit = parameters.sliding_limit(force.pressure);
+  T stiffness(parameters.tangential_spring());
+  if (parameters.elastic_slip > 0.0 && value_of(limit) < parameters.tangential_spring() * parameters.elastic_slip)
+    stiffness = limit / parameters.elastic_slip;
+  force.tangential_stiffness = value_of(stiffness);
+  const T square = dot(stretch, stretch);
+  const double reach = value_of(limit) / value_of(stiffness);
+  if (value_of(square) <= reach * reach) {
+    force.friction = -stiffness * stretch;
+    return 1.0;
+  }
+  const T length = square_root(square);
+  force.friction = -(limit / length) * stretch;
+  const double kept = reach / value_of(length);
+  const double slip = value_of(length) - reach;
+  force.slip = {(1.0 - kept) * value_of(stretch[0]), (1.0 - kept) * value_of(stretch[1]), (1.0 - kept) * value_of(stretch[2])};
+  point.slip += slip;
+  point.frictional_dissipation += value_of(limit) * slip;
+  return kept;
+}
+
+/// Tangential part of the force: spring from the anchor; slipping drags the anchor along, and closing brings it down to the surface.
 template <class T>
 void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, const SurfacePoint<T>& nearest,
                   ContactPoint& point, ContactForce<T>& force) {
-  const T limit = parameters.sliding_limit(force.pressure);
-  T stiffness(parameters.stiffness);
-  if (parameters.elastic_slip > 0.0 && value_of(limit) < parameters.stiffness * parameters.elastic_slip)
-    stiffness = limit / parameters.elastic_slip;
-  force.tangential_stiffness = value_of(stiffness);
-
   Vector3<T> stretch{place[0] - point.anchor[0], place[1] - point.anchor[1], place[2] - point.anchor[2]};
   stretch = stretch - dot(stretch, nearest.normal) * nearest.normal;
-  const T square = dot(stretch, stretch);
-  const double reach = value_of(limit) / value_of(stiffness);
-  const bool sticks = value_of(square) <= reach * reach;
-  double kept = 1.0;  // part of the stretch that the spring can hold
-  if (sticks) {
-    force.friction = -stiffness * stretch;
-  } else {
-    const T length = square_root(square);
-    force.friction = -(limit / length) * stretch;
-    kept = reach / value_of(length);
-    const double slip = value_of(length) - reach;
-    force.slip = {(1.0 - kept) * value_of(stretch[0]), (1.0 - kept) * value_of(stretch[1]), (1.0 - kept) * value_of(stretch[2])};
-    point.slip += slip;
-    point.frictional_dissipation += value_of(limit) * slip;
-  }
-  if (sticks && point.closed > 0.0) return;
+  const double kept = add_tangential_spring(parameters, stretch, point, force);
+  if (kept == 1.0 && point.closed > 0.0) return;
   for (int i = 0; i < 3; ++i)
     point.anchor[i] =
         value_of(place[i]) - value_of(nearest.distance) * value_of(nearest.normal[i]) - kept * value_of(stretch[i]);
@@ -82,7 +91,8 @@ void add_friction(const PenaltyParameters& parameters, const Vector3<T>& place, 
 
 /// Stiffness of the tangential spring under a Coulomb limit.
 inline double tangential_stiffness(const PenaltyParameters& parameters, double limit) {
-  return parameters.elastic_slip > 0.0 ? std::min(parameters.stiffness, limit / parameters.elastic_slip) : parameters.stiffness;
+  const double most = parameters.tangential_spring();
+  return parameters.elastic_slip > 0.0 ? std::min(most, limit / parameters.elastic_slip) : most;
 }
 
 /// Energy that the tangential spring holds with a force under a Coulomb limit.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "contact_resultant.hpp"
 #include "master_frame.hpp"
 #include "model/diagnostics.hpp"
 #include "slave_surface.hpp"
@@ -236,38 +237,14 @@ RigidContact::Output RigidContact::output(std::int32_t point, const double* posi
 
 ContactResultant RigidContact::resultant(const Communicator& communicator, const double* position,
                                          const RigidBodyState& master, const std::vector<ContactPoint>& points) const {
-  std::array<ExactSum, 14> sums;  // normal force, friction force, moment, pressure x place, area, pressure
-  double penetration = 0.0;
+  ContactResultantSum sum;
   for (std::int32_t i = 0; i < size(); ++i) {
     if (!owned_[i]) continue;
     const Output at = output(i, position, master, points[i]);
-    penetration = std::max(penetration, -at.gap);
-    if (!(at.pressure > 0.0)) continue;
     const double* x = position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
-    const Vector3<double> place{x[0], x[1], x[2]};
-    const auto moment = cross(place, Vector3<double>{at.normal_force} + Vector3<double>{at.friction_force});
-    const double pressure = at.pressure * area_[i];
-    for (int k = 0; k < 3; ++k) {
-      sums[k].add(at.normal_force[k]);
-      sums[3 + k].add(at.friction_force[k]);
-      sums[6 + k].add(moment[k]);
-      sums[9 + k].add(pressure * place[k]);
-    }
-    sums[12].add(area_[i]);
-    sums[13].add(pressure);
+    sum.add({x[0], x[1], x[2]}, at.gap, at.pressure, area_[i], {at.normal_force}, {at.friction_force});
   }
-  communicator.sum(sums);
-  ContactResultant result;
-  const double pressure = sums[13].value();
-  for (int k = 0; k < 3; ++k) {
-    result.normal_force[k] = sums[k].value();
-    result.friction_force[k] = sums[3 + k].value();
-    result.moment[k] = sums[6 + k].value();
-    if (pressure > 0.0) result.center[k] = sums[9 + k].value() / pressure;
-  }
-  result.area = sums[12].value();
-  result.greatest_penetration = communicator.maximum(penetration);
-  return result;
+  return sum.total(communicator);
 }
 
 void RigidContact::add_spring_stiffness(const std::vector<bool>& stiff, std::span<double> sum) const {

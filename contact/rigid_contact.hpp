@@ -56,6 +56,8 @@ struct StiffCycle {
 
 class RigidContact {
  public:
+  /// Of a pair whose master deforms (mesh_contact.hpp): no points.
+  RigidContact() = default;
   /// Nodes of the slave surface on this rank, each with its tributary area and penalty stiffness, computed from the
   /// whole model so that every copy of a node has the same bits. @throws InputError where the surfaces cannot form a
   /// pair (slave without faces or nodes, master not rigid or on no rigid body, slave facing away from the master
@@ -64,7 +66,7 @@ class RigidContact {
 
   std::int32_t size() const { return static_cast<std::int32_t>(nodes_.size()); }
   std::span<const std::int32_t> nodes() const { return nodes_; }  // local slave nodes
-  std::int32_t master_body() const { return master_body_; }       // row of Model::rigid_bodies
+  std::int32_t master_body() const { return master_body_; }       // row of Model::rigid_bodies; -1: the master deforms
   double area(std::int32_t point) const { return area_[point]; }
   double normal_stiffness(std::int32_t point) const { return stiffness_[point]; }
 
@@ -143,7 +145,10 @@ class RigidContact {
   /// Of the spring that `state` has.
   PenaltyParameters parameters(std::int32_t point, const ContactPoint& state) const {
     const double chosen = std::max(state.stiff_spring, state.implicit_spring);  // one of them is zero
-    return {chosen > 0.0 ? chosen : stiffness_[point], friction_, elastic_slip_, shear_stress_limit_ * area_[point]};
+    return {.stiffness = chosen > 0.0 ? chosen : stiffness_[point],
+            .friction = friction_,
+            .elastic_slip = elastic_slip_,
+            .shear_limit = shear_stress_limit_ * area_[point]};
   }
   /// Force of a point whose history `state` is up to date.
   ContactForce<double> acting_force(std::int32_t point, const Vector3<double>& place, const ContactPoint& state) const;

@@ -9,9 +9,6 @@ namespace balocco {
 
 namespace {
 
-/// Stiffness of a stiff or implicit spring over that of the pair: under a pressure p the penetration is then p h / (10 M).
-constexpr double stiff_factor = 20.0;
-
 /// What is left of a vector in the directions in which a point is free.
 Vector3<double> free_part(const SlaveFreedom& freedom, Vector3<double> vector) {
   for (int i = 0; i < freedom.held; ++i) {

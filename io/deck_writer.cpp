@@ -266,14 +266,17 @@ void Writer::contact() {
       line("*FRICTION{}{}\n{}",
            interaction.elastic_slip ? fmt::format(", ELASTIC SLIP={}", *interaction.elastic_slip) : "",
            std::isfinite(interaction.shear_stress_limit) ? fmt::format(", TAUMAX={}", interaction.shear_stress_limit) : "",
-           interaction.friction);
+           interaction.stick_slope ? fmt::format("{}, {}", interaction.friction, *interaction.stick_slope) : fmt::format("{}", interaction.friction));
     }
+    if (interaction.pressure_slope)
+      line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}, {}, {}", *interaction.pressure_slope, interaction.tension,
+           interaction.spring_clearance);
     if (interaction.penalty_scale != 1.0) line("*SURFACE BEHAVIOR, PENALTY\n{}", interaction.penalty_scale);
   }
   for (const auto& pair : model_.contact_pairs) {
     if (pair.first_step > 0) continue;
-    line("*CONTACT PAIR, INTERACTION={}\n{}, {}", quoted(model_.interactions[pair.interaction].name),
-         quoted(model_.surfaces[pair.slave].name), quoted(model_.surfaces[pair.master].name));
+    line("*CONTACT PAIR, INTERACTION={}{}\n{}, {}", quoted(model_.interactions[pair.interaction].name),
+         pair.of_faces ? ", TYPE=SURFACE TO SURFACE" : "", quoted(model_.surfaces[pair.slave].name), quoted(model_.surfaces[pair.master].name));
   }
 }
 

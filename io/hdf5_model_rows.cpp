@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "elements/element_type.hpp"
-#include "elements/surface_nodes.hpp"
-#include "slave_nodes.hpp"
+#include "elements/slave_places.hpp"
+#include "local_places.hpp"
 
 namespace balocco {
 
@@ -40,16 +40,16 @@ std::vector<TableRows> make_table_rows(const Model& model, const Communicator& c
 
 ContactRows make_contact_rows(const Model& model, const Communicator& communicator, const Domain& domain, std::int32_t pair,
                               Copies copies) {
-  const auto all = surface_nodes(model, model.surfaces[model.contact_pairs[pair].slave]);
-  const auto local = local_slave_nodes(model, pair, domain);
+  const auto local = local_slave_places(model, pair, domain);
   std::vector<std::int32_t> points;
   std::vector<std::int64_t> rows;
   for (std::int32_t point = 0; point < static_cast<std::int32_t>(local.size()); ++point) {
-    if (copies == Copies::owned && !domain.owned[local[point]]) continue;
+    if (copies == Copies::owned && !domain.owned[local[point].node]) continue;
     points.push_back(point);
-    rows.push_back(std::lower_bound(all.begin(), all.end(), domain.node_row[local[point]]) - all.begin());
+    rows.push_back(local[point].row);
   }
-  return {std::move(points), RowExchange(communicator, static_cast<std::int64_t>(all.size()), std::move(rows))};
+  const auto all = homes_of_places(model, model.contact_pairs[pair]).size();
+  return {std::move(points), RowExchange(communicator, static_cast<std::int64_t>(all), std::move(rows))};
 }
 
 }  // namespace balocco

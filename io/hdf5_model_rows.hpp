@@ -1,4 +1,4 @@
-// Which rows of the model's tables this rank holds: nodes, elements by type, slave nodes of contact pairs.
+// Which rows of the model's tables this rank holds: nodes, elements by type, places of contact pairs.
 #pragma once
 
 #include <cstdint>

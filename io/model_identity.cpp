@@ -8,7 +8,7 @@
 
 #include "constraints/constraint.hpp"
 #include "elements/element_type.hpp"
-#include "elements/surface_nodes.hpp"
+#include "elements/slave_places.hpp"
 #include "model/diagnostics.hpp"
 #include "model_digest.hpp"
 
@@ -36,7 +36,7 @@ void write_contact_pairs(const Hdf5File& file, const Model& model) {
   for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair) {
     const auto& slave = model.surfaces[model.contact_pairs[pair].slave];
     std::vector<std::int64_t> nodes;
-    for (const auto row : surface_nodes(model, slave)) nodes.push_back(model.nodes.id[row]);
+    for (const auto row : homes_of_places(model, model.contact_pairs[pair])) nodes.push_back(model.nodes.id[row]);
     file.write(fmt::format("/identity/contact/{}", pair), {nodes.size(), 1}, nodes);
     file.set_attribute("/identity/contact", fmt::format("surfaces {}", pair),
                        name_of_pair(slave.name, model.surfaces[model.contact_pairs[pair].master].name));
@@ -71,9 +71,10 @@ ModelIdentity::ModelIdentity(const Hdf5File& file) : node_id_(file.read_integers
                                                        static_cast<std::uint64_t>(values[3 * row + 2])});
   }
   for (const auto& pair : file.children("/identity/contact")) {
-    ContactPair known{.index = std::stoll(pair), .row_of_slave = {}};
+    ContactPair known{.index = std::stoll(pair), .places = 0, .rows_of_home = {}};
     const auto nodes = file.read_integers("/identity/contact/" + pair);
-    for (std::size_t row = 0; row < nodes.size(); ++row) known.row_of_slave.emplace(nodes[row], row);
+    known.places = static_cast<std::int64_t>(nodes.size());
+    for (std::size_t row = 0; row < nodes.size(); ++row) known.rows_of_home[nodes[row]].push_back(static_cast<std::int64_t>(row));
     contact_pairs_.emplace(file.text_attribute("/identity/contact", "surfaces " + pair), std::move(known));
   }
   const auto read = [&](const char* path) { return file.exists(path) ? file.read_integers(path) : std::vector<std::int64_t>{}; };

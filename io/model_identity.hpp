@@ -23,8 +23,8 @@ class ModelIdentity {
     std::uint64_t nodes = 0, section = 0;  // digests (model_digest.hpp)
   };
   struct ContactPair {
-    std::int64_t index = 0;
-    std::map<std::int64_t, std::int64_t> row_of_slave;  // by node id
+    std::int64_t index = 0, places = 0;
+    std::map<std::int64_t, std::vector<std::int64_t>> rows_of_home;  // of places, by the id of the node where they are kept
   };
 
   std::int64_t nodes() const { return static_cast<std::int64_t>(node_id_.size()); }

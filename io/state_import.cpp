@@ -11,10 +11,11 @@
 #include "constraints/constraint.hpp"
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
+#include "elements/slave_places.hpp"
 #include "model/diagnostics.hpp"
 #include "model_digest.hpp"
 #include "model_identity.hpp"
-#include "slave_nodes.hpp"
+#include "local_places.hpp"
 #include "state_packing.hpp"
 
 namespace balocco {
@@ -172,17 +173,22 @@ void Importer::read_contact(ParallelFile& tables) {
     const auto& surfaces = model_.contact_pairs[pair];
     const auto* const old = identity_->contact_pair(model_.surfaces[surfaces.slave].name, model_.surfaces[surfaces.master].name);
     if (old == nullptr) continue;
-    const auto local = local_slave_nodes(model_, pair, domain_);
+    const auto homes = homes_of_places(model_, surfaces);
+    std::vector<std::size_t> which;  // of the places that are kept at the same node
+    std::unordered_map<std::int32_t, std::size_t> count;
+    for (const auto home : homes) which.push_back(count[home]++);
     std::vector<std::size_t> points;
     std::vector<std::int64_t> rows;
+    const auto local = local_slave_places(model_, pair, domain_);
     for (std::size_t point = 0; point < local.size(); ++point) {
-      const auto row = domain_.node_row[local[point]];
-      const auto found = old->row_of_slave.find(id_there(model_, row));
-      if (!is_imported(row) || found == old->row_of_slave.end()) continue;
+      const auto home = homes[local[point].row];
+      const auto found = old->rows_of_home.find(id_there(model_, home));
+      if (!is_imported(home) || found == old->rows_of_home.end()) continue;
+      if (which[local[point].row] >= found->second.size()) continue;
       points.push_back(point);
-      rows.push_back(found->second);
+      rows.push_back(found->second[which[local[point].row]]);
     }
-    const RowExchange exchange(communicator_, static_cast<std::int64_t>(old->row_of_slave.size()), std::move(rows));
+    const RowExchange exchange(communicator_, old->places, std::move(rows));
     const auto values = exchange.from_slab(tables.read(fmt::format("contact_{}", old->index), exchange, contact_values), contact_values);
     for (std::size_t i = 0; i < points.size(); ++i) state_.contact[pair][points[i]] = unpack_contact(&values[i * contact_values]);
   }

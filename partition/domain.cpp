@@ -9,6 +9,7 @@
 #include "constraints/linkages.hpp"
 #include "element_graph.hpp"
 #include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
 #include "elements/turning_nodes.hpp"
 #include "hilbert.hpp"
 #include "model/diagnostics.hpp"
@@ -25,12 +26,12 @@ struct Partition {
   std::vector<bool> reference;     // per model node: reference node of a rigid body
   std::vector<bool> turns;         // per model node
   std::vector<std::int32_t> owner;  // of each model node: lowest rank whose elements touch it, rank 0 where none does
-  /// Nodes of each linkage, all of which are on all of its ranks.
+  /// Nodes of a linkage or a contact pair, all of which are on all of its ranks.
   struct Shared {
     std::vector<std::int32_t> nodes;
     std::set<std::int32_t> ranks;
   };
-  std::vector<Shared> linkages;
+  std::vector<Shared> shared;
 
   std::span<const std::int32_t> nodes(std::size_t element) const {
     const auto& table = model.elements[elements[element].table];
@@ -65,22 +66,51 @@ std::vector<std::int32_t> node_owners(const Partition& partition) {
   return owner;
 }
 
-/// Every rank that computes a node of a linkage, or all of them where bodies take part, as bodies move on every rank.
-std::vector<Partition::Shared> shared_linkages(const Partition& partition, int ranks) {
+/// Both surfaces of each contact pair whose master deforms: any of its places may come upon any of its faces.
+std::vector<Partition::Shared> shared_contacts(const Model& model) {
   std::vector<Partition::Shared> shared;
-  std::vector<std::vector<std::size_t>> linkages_of(static_cast<std::size_t>(partition.model.nodes.size()));
-  for (auto& linkage : find_linkages(partition.model)) {
-    auto& entry = shared.emplace_back(Partition::Shared{std::move(linkage.nodes), {}});
-    for (const auto node : entry.nodes) {
-      linkages_of[node].push_back(shared.size() - 1);
-      entry.ranks.insert(partition.owner[node]);
-    }
-    for (int rank = 0; rank < ranks && linkage.has_bodies; ++rank) entry.ranks.insert(rank);
+  for (const auto& pair : model.contact_pairs) {
+    if (!deforms(model, model.surfaces[pair.master])) continue;
+    auto& nodes = shared.emplace_back().nodes;
+    for (const auto surface : {pair.slave, pair.master}) std::ranges::copy(surface_nodes(model, model.surfaces[surface]), std::back_inserter(nodes));
+    std::ranges::sort(nodes);
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
   }
-  if (shared.empty()) return shared;
-  for (std::size_t e = 0; e < partition.elements.size(); ++e)
+  return shared;
+}
+
+/// Fills in the ranks: those that compute one of the nodes.
+void find_ranks(const Partition& partition, std::vector<Partition::Shared>& shared) {
+  std::vector<std::vector<std::size_t>> shared_of(static_cast<std::size_t>(partition.model.nodes.size()));
+  for (std::size_t i = 0; i < shared.size(); ++i)
+    for (const auto node : shared[i].nodes) {
+      shared_of[node].push_back(i);
+      shared[i].ranks.insert(partition.owner[node]);
+    }
+  for (std::size_t e = 0; e < partition.elements.size() && !shared.empty(); ++e)
     for (const std::int32_t node : partition.nodes(e))
-      for (const auto index : linkages_of[node]) shared[index].ranks.insert(partition.part[e]);
+      for (const auto index : shared_of[node]) shared[index].ranks.insert(partition.part[e]);
+}
+
+/// Linkages are on every rank that computes one of their nodes or knows it from contact, or on all of them where bodies take part, as
+/// bodies move on every rank.
+std::vector<Partition::Shared> find_shared(const Partition& partition, int ranks) {
+  auto contacts = shared_contacts(partition.model);
+  find_ranks(partition, contacts);
+  std::vector<Partition::Shared> shared;
+  std::vector<bool> has_bodies;
+  for (auto& linkage : find_linkages(partition.model)) {
+    shared.push_back({std::move(linkage.nodes), {}});
+    has_bodies.push_back(linkage.has_bodies);
+  }
+  find_ranks(partition, shared);
+  for (std::size_t i = 0; i < shared.size(); ++i) {
+    for (int rank = 0; rank < ranks && has_bodies[i]; ++rank) shared[i].ranks.insert(rank);
+    for (const auto& contact : contacts)
+      if (std::ranges::any_of(shared[i].nodes, [&](auto node) { return std::ranges::binary_search(contact.nodes, node); }))
+        shared[i].ranks.insert(contact.ranks.begin(), contact.ranks.end());
+  }
+  std::ranges::move(contacts, std::back_inserter(shared));
   return shared;
 }
 
@@ -98,7 +128,7 @@ Partition make_partition(const Model& model, const Communicator& communicator, c
     partition.part = partition_elements(element_graph(model, partition.elements), communicator, partitioner);
   for (const auto& body : model.rigid_bodies) partition.reference[body.reference_node] = true;
   partition.owner = node_owners(partition);
-  partition.linkages = shared_linkages(partition, communicator.size());
+  partition.shared = find_shared(partition, communicator.size());
   return partition;
 }
 
@@ -123,10 +153,10 @@ std::map<int, std::vector<std::int32_t>> shared_rows(const Partition& partition,
   for (int other = 0; other < communicator.size(); ++other)
     if (other != communicator.rank())
       for (const auto& body : partition.model.rigid_bodies) shared[other].push_back(body.reference_node);
-  for (const auto& linkage : partition.linkages) {
-    if (!linkage.ranks.contains(communicator.rank())) continue;
-    for (const auto other : linkage.ranks)
-      if (other != communicator.rank()) shared[other].insert(shared[other].end(), linkage.nodes.begin(), linkage.nodes.end());
+  for (const auto& together : partition.shared) {
+    if (!together.ranks.contains(communicator.rank())) continue;
+    for (const auto other : together.ranks)
+      if (other != communicator.rank()) shared[other].insert(shared[other].end(), together.nodes.begin(), together.nodes.end());
   }
   for (auto& [rank, rows] : shared) {
     std::sort(rows.begin(), rows.end());
@@ -180,9 +210,9 @@ void number_nodes(const Partition& partition, int rank, std::span<const Placed> 
   for (const auto& placed : order)
     for (const std::int32_t node : partition.nodes(placed.element)) add(node);
   const auto& owner = partition.owner;
-  for (const auto& linkage : partition.linkages)
-    if (linkage.ranks.contains(rank))
-      for (const auto row : linkage.nodes) add(row);
+  for (const auto& together : partition.shared)
+    if (together.ranks.contains(rank))
+      for (const auto row : together.nodes) add(row);
   for (std::int32_t row = 0; row < count; ++row)
     if (partition.reference[row] || owner[row] == rank) add(row);
   std::ranges::stable_sort(domain.node_row, {}, [&](std::int32_t row) {

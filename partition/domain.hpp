@@ -26,7 +26,7 @@ using Partitioner = std::function<std::vector<std::int32_t>(const Graph&, int pa
 std::vector<std::int32_t> metis_partition(const Graph& graph, int parts);
 
 /// Local nodes: those of the rank's elements, the reference node of every rigid body (on every rank), and all nodes of the linkages
-/// (constraints/linkages.hpp) that a node of the rank belongs to. Elements follow a Hilbert curve; nodes are numbered as the elements come to them, those that turn first.
+/// (constraints/linkages.hpp) that a node of the rank belongs to, and of the contact pairs with deformable masters. Elements follow a Hilbert curve; nodes are numbered as the elements come to them, those that turn first.
 struct Domain {
   std::vector<std::int32_t> node_row;   // local node -> model row
   std::vector<std::int32_t> local_node;  // model row -> local node, -1: not on this rank

@@ -57,8 +57,12 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
       inertia_sums_(model, communicator, domain) {
   communicator.together([&] {
     element_groups = make_groups(model, std::exchange(domain.groups, {}));
-    for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair)
-      contacts.emplace_back(model, static_cast<std::int32_t>(pair), domain);
+    for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair) {
+      const auto row = static_cast<std::int32_t>(pair);
+      const bool mesh = deforms(model, model.surfaces[model.contact_pairs[pair].master]);
+      contacts.push_back(mesh ? RigidContact() : RigidContact(model, row, domain));
+      mesh_contacts.push_back(mesh ? MeshContact(model, row, domain) : MeshContact());
+    }
   });
   make_local_constraints();
   pressure_faces.resize(model.surfaces.size());
@@ -91,7 +95,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
   }
   current.mass_scale.resize(element_groups.size());
   current.restrained.resize(element_groups.size());
-  for (const auto& pair : contacts) current.contact.emplace_back(pair.size());
+  for (std::size_t pair = 0; pair < contacts.size(); ++pair) current.contact.emplace_back(contacts[pair].size() + mesh_contacts[pair].size());
   current.rigid_bodies = initial_rigid_bodies(model);
   undeformed_increment = balocco::undeformed_increment(model, communicator, domain, element_groups);
   body_reaction.resize(model.rigid_bodies.size());
@@ -226,7 +230,10 @@ void Analysis::start_step(const Step& step) {
   apply_attachments(step);
   for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
     const bool active = std::ranges::count(step.active_contact_pairs, static_cast<std::int32_t>(pair)) > 0;
+    mesh_contacts[pair].locate(current.position.data());
+    mesh_contacts[pair].start_step(current.position.data(), active, current.contact[pair]);
     const auto& contact = contacts[pair];
+    if (contact.master_body() < 0) continue;
     const auto& master = current.rigid_bodies[contact.master_body()];
     contact.start_step(current.position.data(), master, active, current.contact[pair]);
     if (!std::holds_alternative<ExplicitProcedure>(step.procedure))
@@ -275,6 +282,7 @@ void Analysis::apply_mass_scale() {
 }
 
 void Analysis::take_up_checkpoint() {
+  for (auto& contact : mesh_contacts) contact.locate(current.position.data());
   index_rigid_nodes();
   apply_mass_scale();
   const std::array of_rows{&current.multiplier, &current.guide_motion, &current.guide_locked};

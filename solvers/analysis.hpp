@@ -19,6 +19,7 @@
 #include "model/model.hpp"
 #include "model/results.hpp"
 #include "model/state.hpp"
+#include "mesh_contact.hpp"
 #include "rigid_contact.hpp"
 
 namespace balocco {
@@ -35,7 +36,8 @@ class Analysis : public ResultSource {
   const Communicator& communicator;
   Domain domain;
   std::vector<std::unique_ptr<ElementGroup>> element_groups;
-  std::vector<RigidContact> contacts;              // per Model::contact_pairs
+  std::vector<RigidContact> contacts;              // per Model::contact_pairs, empty where the master deforms
+  std::vector<MeshContact> mesh_contacts;          // likewise, empty where the master is rigid
   std::vector<std::unique_ptr<Constraint>> constraints;  // per Model::constraints
   std::vector<std::int32_t> first_constraint_row;        // of each constraint in State::multiplier, and how many rows there are
   std::vector<std::int32_t> local_constraints;           // those whose nodes are all on this rank, in order

@@ -149,6 +149,13 @@ EnergyBalance Analysis::sum_energies() const {
     sums[contact_springs].add(output.spring_energy + stiff_spring_correction(*this, master, node, output, point));
     sums[friction].add(point.frictional_dissipation);
   });
+  for (std::size_t pair = 0; pair < mesh_contacts.size(); ++pair)
+    for (std::int32_t place = 0; place < mesh_contacts[pair].size(); ++place) {
+      if (!mesh_contacts[pair].owned(place)) continue;
+      const auto& point = current.contact[pair][place];
+      sums[contact_springs].add(mesh_contacts[pair].output(place, current.position.data(), point).spring_energy);
+      sums[friction].add(point.frictional_dissipation);
+    }
   communicator.sum(std::span<ExactSum>(sums));
 
   EnergyBalance balance;

@@ -6,6 +6,7 @@
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
 #include "joint_angles.hpp"
+#include "contact_output.hpp"
 #include "output_instant.hpp"
 #include "total_force.hpp"
 
@@ -79,53 +80,6 @@ void reaction_moment(const Analysis& analysis, std::span<double> values) {
         return {six[3], six[4], six[5]};
       });
   add_joint_reactions(analysis, values);
-}
-
-/// A scalar of the contact points; where a node is in several pairs the largest counts.
-template <class Value>
-void contact_scalar(const Analysis& analysis, std::span<double> values, double elsewhere, Value value) {
-  std::ranges::fill(values, elsewhere);
-  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const auto&...) {
-    values[node] = std::max(values[node], value(output));
-  });
-}
-
-void contact_pressure(const Analysis& analysis, std::span<double> values) {
-  contact_scalar(analysis, values, 0.0, [](const auto& output) { return output.pressure; });
-}
-
-void contact_shear(const Analysis& analysis, std::span<double> values) {
-  contact_scalar(analysis, values, 0.0, [](const auto& output) { return output.shear; });
-}
-
-void contact_slip(const Analysis& analysis, std::span<double> values) {
-  contact_scalar(analysis, values, 0.0, [](const auto& output) { return output.slip; });
-}
-
-/// Distance to the nearest master; zero on nodes of no contact pair.
-void contact_opening(const Analysis& analysis, std::span<double> values) {
-  std::ranges::fill(values, 0.0);
-  std::vector<bool> seen(values.size());
-  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const auto&...) {
-    values[node] = seen[node] ? std::min(values[node], output.gap) : output.gap;
-    seen[node] = true;
-  });
-}
-
-template <class Value>
-void contact_vector(const Analysis& analysis, std::span<double> values, Value value) {
-  std::ranges::fill(values, 0.0);
-  for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const auto&...) {
-    for (int i = 0; i < 3; ++i) values[3 * node + i] += value(output)[i];
-  });
-}
-
-void contact_normal_force(const Analysis& analysis, std::span<double> values) {
-  contact_vector(analysis, values, [](const auto& output) { return output.normal_force; });
-}
-
-void contact_shear_force(const Analysis& analysis, std::span<double> values) {
-  contact_vector(analysis, values, [](const auto& output) { return output.friction_force; });
 }
 
 struct NodalVariable {
@@ -206,6 +160,7 @@ void Analysis::internal_force(std::size_t index, std::int32_t element, std::span
 
 ContactResultant Analysis::contact(std::int32_t pair) const {
   const auto& surface_pair = contacts[pair];
+  if (surface_pair.master_body() < 0) return mesh_contacts[pair].resultant(communicator, current.position.data(), current.contact[pair]);
   return surface_pair.resultant(communicator, current.position.data(), current.rigid_bodies[surface_pair.master_body()],
                                 current.contact[pair]);
 }

@@ -50,7 +50,7 @@ std::vector<double> BuckleStep::response() {
   for (const auto slot : map.owned_free_slots()) right_hand_side.push_back(-system_.residual()[slot]);
   assemble(false);
   for (std::size_t i = 0; i < right_hand_side.size(); ++i) right_hand_side[i] += system_.residual()[map.owned_free_slots()[i]];
-  ImplicitLinearSolver solver(system_.stiffness().matrix(), analysis_, map);
+  ImplicitLinearSolver solver(system_.stiffness(), analysis_, map);
   if (!solver.solve(right_hand_side, solution) || !solver.mechanism().empty())
     throw AnalysisError(fmt::format("step '{}': nothing resists a motion of {}; hold it with *BOUNDARY", step_.name, solver.mechanism()));
   std::vector<double> slots(static_cast<std::size_t>(map.slots()), 0.0);

@@ -35,6 +35,7 @@ Step with_initial_loads(const Step& step) {
 }  // namespace
 
 bool ImplicitSystem::assemble(const AssemblyRequest& request) {
+  follow_faces();
   std::ranges::fill(residual_, 0.0);
   std::ranges::fill(external_, 0.0);
   force_sum_ = {};
@@ -233,69 +234,6 @@ void ImplicitSystem::add_follower_stiffness(const AssemblyRequest& request) {
     }
     stiffness_.add(*motion, block_);
   }
-}
-
-void ImplicitSystem::add_contact(bool sticks) {
-  const auto closed_before = trial_contact_;
-  contact_force_.assign(residual_.size(), 0.0);
-  sticking_.assign(residual_.size(), 0.0);
-  std::array<double, 3> counts{};
-  auto& [turned, closed, changed] = counts;
-  for (const auto pair : step_.active_contact_pairs)
-    for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) add_contact_point(pair, point, sticks);
-  for (const auto pair : step_.active_contact_pairs)
-    for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) {
-      if (!analysis_.domain.owned[analysis_.contacts[pair].nodes()[point]]) continue;
-      const bool now = trial_contact_[pair][point].closed > 0.0, before = closed_before[pair][point].closed > 0.0;
-      turned += slips_[pair][point].turns_back() ? 1 : 0;
-      closed += now ? 1 : 0;
-      changed += now != before ? 1 : 0;
-    }
-  if (has_contact()) analysis_.communicator.sum(std::span<double>(counts));
-  turned_points_ = static_cast<std::int64_t>(turned);
-  closed_points_ = static_cast<std::int64_t>(closed);
-  changed_points_ = static_cast<std::int64_t>(changed);
-}
-
-void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point, bool sticks) {
-  const auto& contact = analysis_.contacts[pair];
-  const auto body = contact.master_body();
-  const auto& master = analysis_.current.rigid_bodies[body];
-  const double* position = analysis_.current.position.data();
-  auto& slips = slips_[pair][point];
-  const auto tangent =
-      contact.linearize(point, position, master, start_contact_[pair][point], trial_contact_[pair][point], sticks, slips.before);
-  slips.now = tangent.slip;
-  const auto node = contact.nodes()[point];
-  if (!analysis_.domain.owned[node]) return;
-
-  const auto reference = analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node];
-  Point arm{};
-  for (int i = 0; i < 3; ++i) arm[i] = position[4 * node + i] - master.position[i];
-  const auto moment = cross_product(arm.data(), tangent.force.data());
-  // The residual is internal - external - contact; the master feels the opposite of the slave's force.
-  auto& sum = dynamics_ ? contact_force_ : residual_;
-  for (int i = 0; i < 3; ++i) {
-    sum[map_.slot(node, i)] -= tangent.force[i];
-    sum[map_.slot(reference, i)] += tangent.force[i];
-    sum[map_.rotation_slot(body, i)] += moment[i];
-  }
-  block_.assign(81, 0.0);
-  for (int column = 0; column < 9; ++column) {
-    Point change{}, arm_change{};
-    for (int i = 0; i < 3; ++i) change[i] = tangent.derivative[9 * i + column];
-    if (column < 6) arm_change[column % 3] = column < 3 ? 1.0 : -1.0;
-    const auto from_force = cross_product(arm.data(), change.data());
-    const auto from_arm = cross_product(arm_change.data(), tangent.force.data());
-    for (int i = 0; i < 3; ++i) {
-      block_[9 * i + column] = -change[i];
-      block_[9 * (3 + i) + column] = change[i];
-      block_[9 * (6 + i) + column] = from_force[i] + from_arm[i];
-    }
-  }
-  const std::array motions{map_.motion(node), map_.motion(reference), map_.spin(body)};
-  stiffness_.add(motions, block_);
-  if (slips.turns_back()) stiffness_.add_product(motions, block_, slips.now.component, sticking_);
 }
 
 void ImplicitSystem::add_stabilization(const AssemblyRequest& request) {

@@ -33,12 +33,11 @@ void fill_with_noise(Vec vector) {
 
 }  // namespace
 
-ImplicitLinearSolver::ImplicitLinearSolver(Mat matrix, const Analysis& analysis, const ImplicitDofMap& map)
-    : map_(map), matrix_(matrix) {
-  petsc(MatCreateVecs(matrix, solution_.address(), right_hand_side_.address()));
+ImplicitLinearSolver::ImplicitLinearSolver(const ImplicitStiffness& stiffness, const Analysis& analysis, const ImplicitDofMap& map)
+    : stiffness_(stiffness), analysis_(analysis), map_(map) {
+  petsc(MatCreateVecs(stiffness.matrix(), solution_.address(), right_hand_side_.address()));
   petsc(KSPCreate(analysis.communicator.handle(), solver_.address()));
-  petsc(KSPSetOperators(solver_, matrix, matrix));
-  set_near_null_space(analysis);
+  take_matrix();
   set_defaults();
   petsc(KSPSetFromOptions(solver_));
 }
@@ -54,7 +53,14 @@ void ImplicitLinearSolver::set_defaults() {
   set_factorization_defaults();
 }
 
-void ImplicitLinearSolver::set_near_null_space(const Analysis& analysis) {
+void ImplicitLinearSolver::take_matrix() {
+  if (matrix_ == stiffness_.matrix()) return;
+  matrix_ = stiffness_.matrix();
+  petsc(KSPSetOperators(solver_, matrix_, matrix_));
+  set_near_null_space();
+}
+
+void ImplicitLinearSolver::set_near_null_space() {
   constexpr int modes = 6;
   std::array<Vec, modes> vectors{};
   std::array<double*, modes> values{};
@@ -67,7 +73,7 @@ void ImplicitLinearSolver::set_near_null_space(const Analysis& analysis) {
     if (map_.is_multiplier(slot)) continue;
     const auto node = map_.node_of(slot);
     const auto& axes = map_.directions(node);
-    const double* x = &analysis.current.position[4 * node];
+    const double* x = &analysis_.current.position[4 * node];
     const Point direction{axes(slot % 3, 0), axes(slot % 3, 1), axes(slot % 3, 2)};
     for (int mode = 0; mode < 3; ++mode) {
       const int next = (mode + 1) % 3, last = (mode + 2) % 3;
@@ -93,7 +99,7 @@ void ImplicitLinearSolver::set_near_null_space(const Analysis& analysis) {
     if (after > 1e-8 * before) kept.push_back(vector);
   }
   PetscNullSpace space;
-  petsc(MatNullSpaceCreate(analysis.communicator.handle(), PETSC_FALSE, static_cast<PetscInt>(kept.size()), kept.data(),
+  petsc(MatNullSpaceCreate(analysis_.communicator.handle(), PETSC_FALSE, static_cast<PetscInt>(kept.size()), kept.data(),
                            space.address()));
   petsc(MatSetNearNullSpace(matrix_, space));
   for (auto& vector : vectors) petsc(VecDestroy(&vector));
@@ -146,6 +152,7 @@ void ImplicitLinearSolver::choose_factorization() {
 }
 
 bool ImplicitLinearSolver::solve(std::span<const double> right_hand_side, std::span<double> solution) {
+  take_matrix();
   choose_factorization();
   double* values = nullptr;
   petsc(VecGetArray(right_hand_side_, &values));
@@ -189,6 +196,7 @@ void ImplicitLinearSolver::clear_multipliers(Vec vector) {
 }
 
 double ImplicitLinearSolver::average_diagonal() {
+  take_matrix();
   PetscVector diagonal;
   petsc(VecDuplicate(solution_, diagonal.address()));
   petsc(MatGetDiagonal(matrix_, diagonal));

@@ -6,14 +6,15 @@
 
 #include "implicit_dof_map.hpp"
 #include "implicit_petsc.hpp"
+#include "implicit_stiffness.hpp"
 
 namespace balocco {
 
 class ImplicitLinearSolver {
  public:
-  /// `matrix` keeps its pattern, so that the symbolic factorisation is made once. A matrix that is symmetric to round-off
+  /// The symbolic factorisation is made once for each pattern of `stiffness`. A matrix that is symmetric to round-off
   /// (followers, friction and laws decide that as they act) is factorised as such, at half the cost. Collective.
-  ImplicitLinearSolver(Mat matrix, const Analysis& analysis, const ImplicitDofMap& map);
+  ImplicitLinearSolver(const ImplicitStiffness& stiffness, const Analysis& analysis, const ImplicitDofMap& map);
 
   /// Factorises the matrix as it stands (once per factorise) and solves for the values of the equations this rank owns.
   /// @return false if the factorisation failed, the iteration did not converge or the solution is not finite.
@@ -36,14 +37,17 @@ class ImplicitLinearSolver {
   void set_defaults();
   void choose_factorization();
   bool is_symmetric() const;
-  void set_near_null_space(const Analysis& analysis);
+  void take_matrix();
+  void set_near_null_space();
   bool solve_vectors(Mat matrix, Vec right_hand_side, Vec solution);
   void clear_multipliers(Vec vector);
   std::string unresisted_equation();
   std::string largest_component(Vec vector);
 
+  const ImplicitStiffness& stiffness_;
+  const Analysis& analysis_;
   const ImplicitDofMap& map_;
-  Mat matrix_;
+  Mat matrix_ = nullptr;
   PetscSolver solver_;
   PetscVector right_hand_side_, solution_;
   bool symmetric_ = false, unsymmetric_ = false;  // once found unsymmetric, the matrix stays so

@@ -21,14 +21,16 @@ template <class Handle, PetscErrorCode (*destroy)(Handle*)>
 class PetscObjectOwner {
  public:
   PetscObjectOwner() = default;
-  ~PetscObjectOwner() {
-    if (handle_ != nullptr) destroy(&handle_);
-  }
+  ~PetscObjectOwner() { reset(); }
   PetscObjectOwner(const PetscObjectOwner&) = delete;
   PetscObjectOwner& operator=(const PetscObjectOwner&) = delete;
 
   operator Handle() const { return handle_; }  // NOLINT: stands wherever PETSc wants the handle
   Handle* address() { return &handle_; }
+  /// Gives up the object: others that refer to it keep it.
+  void reset() {
+    if (handle_ != nullptr) destroy(&handle_);
+  }
 
  private:
   Handle handle_ = nullptr;

@@ -26,7 +26,7 @@ ImplicitStep::ImplicitStep(Analysis& analysis, const Step& step, Observer& obser
       observer_(observer),
       drive_{prescribed_motions(analysis, step), {}},
       system_(analysis, step, slots_of(drive_.motions)),
-      solver_(system_.stiffness().matrix(), analysis, system_.map()),
+      solver_(system_.stiffness(), analysis, system_.map()),
       newton_(analysis, step, system_, solver_, drive_, observer),
       linear_(analysis, step, system_, solver_, drive_),
       total_start_(analysis.current.total_time - analysis.current.step_time),

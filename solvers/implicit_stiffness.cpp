@@ -35,14 +35,16 @@ void ImplicitStiffness::add(std::span<const NodeMotion> motions, std::span<const
   }
 }
 
-void ImplicitStiffness::add_product(std::span<const NodeMotion> motions, std::span<const double> block, const Point& motion,
-                                    std::vector<double>& product) const {
+void ImplicitStiffness::add_product(std::span<const NodeMotion> motions, std::span<const double> block, std::span<const double> shares,
+                                    const Point& motion, std::vector<double>& product) const {
   const auto width = 3 * motions.size();
   for (std::size_t a = 0; a < motions.size(); ++a)
     for (int l = 0; l < motions[a].count; ++l)
       for (std::size_t i = 0; i < 3; ++i)
-        for (std::size_t j = 0; j < 3; ++j)
-          product[motions[a].slots[l]] += weight_ * motions[a].direction[l][i] * block[(3 * a + i) * width + j] * motion[j];
+        for (std::size_t b = 0; b < shares.size(); ++b)
+          for (std::size_t j = 0; shares[b] != 0.0 && j < 3; ++j)
+            product[motions[a].slots[l]] +=
+                weight_ * motions[a].direction[l][i] * block[(3 * a + i) * width + 3 * b + j] * shares[b] * motion[j];
 }
 
 void ImplicitStiffness::record(std::span<const std::int32_t> slots) {
@@ -91,6 +93,11 @@ void ImplicitStiffness::finish_pattern() {
   std::exchange(columns_, {});
   product_.resize(map_.slots());
   recording_ = false;
+}
+
+void ImplicitStiffness::forget_pattern() {
+  matrix_.reset();
+  recording_ = true;
 }
 
 void ImplicitStiffness::start(std::span<const double> motion) {

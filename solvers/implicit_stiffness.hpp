@@ -17,9 +17,12 @@ class ImplicitStiffness {
   /// Adds a block (row-major, three rows and columns for each of `motions`) that couples the slots which `motions`
   /// name. While the pattern is recorded `block` is empty.
   void add(std::span<const NodeMotion> motions, std::span<const double> block);
-  /// Adds the product of a block with a motion of its first node to one value a slot.
-  void add_product(std::span<const NodeMotion> motions, std::span<const double> block, const Point& motion, std::vector<double>& product) const;
+  /// Adds the product of a block with a motion of which each node does its share, to one value a slot.
+  void add_product(std::span<const NodeMotion> motions, std::span<const double> block, std::span<const double> shares, const Point& motion,
+                   std::vector<double>& product) const;
   void finish_pattern();
+  /// The pattern is recorded anew, and gives another matrix().
+  void forget_pattern();
 
   /// Begins a new assembly; `motion` (one value a slot) is what product() multiplies.
   void start(std::span<const double> motion);

@@ -116,13 +116,7 @@ void ImplicitSystem::record_pattern() {
   for_each_spun_node([&](std::int32_t node, const BodyLoad&, double) { stiffness_.add(std::array{map_.motion(node)}, {}); });
   for (const auto& load : step_.concentrated_loads)
     if (const auto motion = followed_motion(load)) stiffness_.add(*motion, {});
-  for (const auto pair : step_.active_contact_pairs) {
-    const auto& contact = analysis_.contacts[pair];
-    const auto master = analysis_.domain.local_node[analysis_.model.rigid_bodies[contact.master_body()].reference_node];
-    for (const auto node : contact.nodes())
-      if (analysis_.domain.owned[node])
-        stiffness_.add(std::array{map_.motion(node), map_.motion(master), map_.spin(contact.master_body())}, {});
-  }
+  record_contact();
   record_constraints();
   for (const auto slot : map_.owned_free_slots()) {
     NodeMotion alone;
@@ -284,50 +278,9 @@ void ImplicitSystem::begin_iteration() {
 void ImplicitSystem::commit() {
   analysis_.current.element_history = trial_history_;
   analysis_.current.contact = trial_contact_;
-  if (dynamics_)  // nothing may push across a gap: that would give energy
-    for (const auto pair : step_.active_contact_pairs)
-      analysis_.contacts[pair].lower_multipliers(analysis_.current.position.data(),
-                                                 analysis_.current.rigid_bodies[analysis_.contacts[pair].master_body()],
-                                                 analysis_.current.contact[pair]);
+  if (dynamics_) lower_multipliers();
   for (std::size_t group = 0; group < analysis_.element_groups.size(); ++group)
     repeat_in_padded_lanes(*analysis_.element_groups[group], analysis_.current.element_history[group]);
-}
-
-double ImplicitSystem::greatest_misfit() const {
-  double misfit = 0.0;
-  for (const auto pair : step_.active_contact_pairs) {
-    const auto& contact = analysis_.contacts[pair];
-    auto points = start_contact_[pair];  // only looked at
-    misfit = std::max(misfit, contact.augment(analysis_.current.position.data(),
-                                              analysis_.current.rigid_bodies[contact.master_body()], points));
-  }
-  return analysis_.communicator.maximum(misfit);
-}
-
-bool ImplicitSystem::starts_in_contact() const {
-  const auto closed = [](const std::vector<ContactPoint>& points) {
-    return std::ranges::any_of(points, [](const ContactPoint& point) { return point.closed > 0.0; });
-  };
-  return has_contact() && analysis_.communicator.any(std::ranges::any_of(start_contact_, closed));
-}
-
-void ImplicitSystem::augment_contact() {
-  for (const auto pair : step_.active_contact_pairs)
-    analysis_.contacts[pair].augment(analysis_.current.position.data(),
-                                     analysis_.current.rigid_bodies[analysis_.contacts[pair].master_body()],
-                                     start_contact_[pair]);
-}
-
-double ImplicitSystem::contact_length() const {
-  std::array<double, 2> sum{};
-  for (const auto pair : step_.active_contact_pairs)
-    for (std::int32_t point = 0; point < analysis_.contacts[pair].size(); ++point) {
-      if (!analysis_.domain.owned[analysis_.contacts[pair].nodes()[point]]) continue;
-      sum[0] += std::sqrt(analysis_.contacts[pair].area(point));
-      sum[1] += 1.0;
-    }
-  analysis_.communicator.sum(std::span<double>(sum));
-  return sum[1] > 0.0 ? sum[0] / sum[1] : 0.0;
 }
 
 }  // namespace balocco

@@ -131,8 +131,16 @@ class ImplicitSystem {
         if (share[node] != 0.0) visit(node, load, share[node]);
     }
   }
+  void record_contact();
+  void follow_faces();
   void add_contact(bool sticks);
   void add_contact_point(std::int32_t pair, std::int32_t point, bool sticks);
+  void add_contact_place(std::int32_t pair, std::int32_t place, bool sticks);
+  void count_points(const std::vector<std::vector<ContactPoint>>& before);
+  void lower_multipliers();
+  /// Calls visit(pair, contact, point or place, whether this rank adds its forces) for all that contact may push, of either kind of master.
+  template <class Visit>
+  void for_each_contact(Visit visit) const;
   void record_constraints();
   void add_constraints();
   void add_constraint(std::size_t local_constraint);
@@ -177,6 +185,7 @@ class ImplicitSystem {
     bool turns_back() const { return dot(now, before) < 0.0; }
   };
   std::vector<std::vector<Slips>> slips_;
+  std::vector<std::vector<MeshPairing>> pairings_;  // of deformable masters, as the pattern of the stiffness has them
   std::vector<double> sticking_;
   std::unique_ptr<AlphaMethod> dynamics_;
   std::vector<double> residual_, external_, mass_, lever_;
@@ -188,6 +197,7 @@ class ImplicitSystem {
   std::int64_t inverted_element_ = -1;
   std::string trouble_;
   std::vector<NodeMotion> motions_;                                        // scratch
+  MeshTangent mesh_tangent_;                                               // scratch
   std::vector<double> old_history_, new_history_, force_, block_;  // scratch
   std::vector<double> nodal_, nodal_moment_;                       // scratch
   std::vector<NodePlace> places_;                                  // scratch

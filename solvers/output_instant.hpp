@@ -43,11 +43,12 @@ inline Point spin_of_body(const Analysis& analysis, std::int32_t body) {
   return spin_now(analysis, analysis.current.rigid_bodies[body].angular_velocity, analysis.body_angular_acceleration[body]);
 }
 
-/// Calls `visit(local node, output, contact point, master body)` for every slave node on this rank of every pair.
+/// Calls `visit(local node, output, contact point, master body)` for every slave node on this rank of every pair with a rigid master.
 template <class Visit>
 void for_each_contact_point(const Analysis& analysis, Visit visit) {
   for (std::size_t pair = 0; pair < analysis.contacts.size(); ++pair) {
     const auto& contact = analysis.contacts[pair];
+    if (contact.size() == 0) continue;
     const auto& master = analysis.current.rigid_bodies[contact.master_body()];
     for (std::int32_t point = 0; point < contact.size(); ++point)
       visit(contact.nodes()[point],

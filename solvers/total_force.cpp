@@ -42,6 +42,12 @@ void total_force(const Analysis& analysis, std::span<double> values) {
         for (int axis = 0; axis < 3; ++axis) sums[4 * nodes[i] + axis] += force[freedoms * i + axis];
     }
   }
+  for (std::size_t pair = 0; pair < analysis.mesh_contacts.size() && !analysis.current.dynamic; ++pair) {
+    const auto& contact = analysis.mesh_contacts[pair];
+    for (std::int32_t place = 0; place < contact.size(); ++place)
+      if (contact.owned(place))
+        contact.take_forces(place, analysis.current.position.data(), analysis.current.contact[pair][place], sums);
+  }
   domain.halo->begin_sum(sums.data());
   domain.halo->finish_sum(sums.data());
   const auto told = told_by_elements(analysis.model);

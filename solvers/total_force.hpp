@@ -7,7 +7,7 @@
 
 namespace balocco {
 
-/// What the elements of each local node resist, three values a node, and reactions on the reference nodes of bodies. Of
+/// What the elements and the deformable contact of each local node resist, three values a node, and reactions on the reference nodes of bodies. Of
 /// dynamic states, whose masses resist too, reactions alone. Collective.
 void total_force(const Analysis& analysis, std::span<double> values);
 

@@ -2,13 +2,16 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 
+#include "constraints/face_projection.hpp"
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
 
 namespace balocco::deck {
 
@@ -49,8 +52,11 @@ void read_friction(Builder& builder, const Block& block) {
   if (block.lines.empty()) return builder.error(block, block.location, "the coefficient is missing; add a data line");
   Row row(builder, block, block.lines[0]);
   const double coefficient = row.real_or(0, 0.0, "friction coefficient");
-  // One line holds at every slip rate, pressure and temperature, which may follow.
-  for (int field = 1; field < 4; ++field) row.real_or(field, 0.0, "slip rate, contact pressure or temperature");
+  // One line holds at every slip rate, pressure and temperature, which may follow. Where CalculiX has its stick slope Abaqus has the slip
+  // rate, which is zero where there is one line.
+  const double slope = row.real_or(1, 0.0, "slip rate, or stick slope");
+  for (int field = 2; field < 4; ++field) row.real_or(field, 0.0, "contact pressure or temperature");
+  if (row.ok() && slope < 0.0) row.error(fmt::format("the stick slope {} must not be negative; correct it", slope));
   row.at_most(4);
   if (row.ok() && coefficient < 0.0)
     row.error(fmt::format("coefficient {} must not be negative; correct it", coefficient));
@@ -65,6 +71,7 @@ void read_friction(Builder& builder, const Block& block) {
   }
   if (builder.model.interactions.empty()) return;  // the *CONNECTOR FRICTION above it is wrong, which has been told
   current_interaction(builder).friction = coefficient;
+  if (slope > 0.0) current_interaction(builder).stick_slope = slope;
   if (block.has("TAUMAX")) {
     const double limit = block.real("TAUMAX", 0.0);
     if (!(limit > 0.0)) return builder.error(block, block.location, "TAUMAX, the greatest shear stress, must be positive; correct it");
@@ -85,8 +92,27 @@ void read_friction(Builder& builder, const Block& block) {
   }
 }
 
-/// The enforcement is the procedure's own: penalty in explicit steps, augmented Lagrange in static ones.
+/// LINEAR: pressure per overclosure; behind it CalculiX has the tension at great clearance and how far that reaches.
+void read_linear_behavior(Builder& builder, const Block& block) {
+  if (block.has("PENALTY") || block.has("AUGMENTED LAGRANGE"))
+    return builder.error(block, block.location, "PENALTY and AUGMENTED LAGRANGE are of hard contact; take them away, or LINEAR");
+  if (block.lines.empty())
+    return builder.error(block, block.location, "LINEAR needs a line with the slope of pressure over overclosure; add it");
+  Row row(builder, block, block.lines[0]);
+  const double slope = row.real(0, "slope of pressure over overclosure");
+  auto& interaction = current_interaction(builder);
+  interaction.tension = row.real_or(1, 0.0, "tension at great clearance");
+  interaction.spring_clearance = row.real_or(2, 0.0, "clearance up to which it pulls");
+  row.at_most(3);
+  if (row.ok() && !(slope > 0.0)) row.error(fmt::format("slope {} must be positive; correct it", slope));
+  if (row.ok() && (interaction.tension < 0.0 || interaction.spring_clearance < 0.0))
+    row.error("tension and clearance must not be negative; correct them");
+  interaction.pressure_slope = slope;
+}
+
+/// Hard: the enforcement is the procedure's own, penalty in explicit steps, augmented Lagrange in static ones.
 void read_surface_behavior(Builder& builder, const Block& block) {
+  if (block.value("PRESSURE-OVERCLOSURE") == "LINEAR") return read_linear_behavior(builder, block);
   if (block.lines.empty()) return;
   if (!block.has("PENALTY")) {
     return builder.error(block, block.lines[0].location,
@@ -123,7 +149,7 @@ void activate(std::vector<std::int32_t>& active, std::int32_t pair) {
 
 /// SLIP TOLERANCE is a fraction of the mean edge of the slave's faces, as in Abaqus.
 void apply_slip_tolerance(Builder& builder, std::int32_t pair) {
-  const auto& [slave, master, interaction, first_step, location] = builder.model.contact_pairs[pair];
+  const auto& [slave, master, interaction, first_step, of_faces, location] = builder.model.contact_pairs[pair];
   const auto tolerance = builder.slip_tolerance.find(interaction);
   if (tolerance == builder.slip_tolerance.end() || builder.model.interactions[interaction].elastic_slip) return;
   double sum = 0.0;
@@ -145,21 +171,44 @@ void apply_slip_tolerance(Builder& builder, std::int32_t pair) {
     builder.model.interactions[interaction].elastic_slip = tolerance->second * sum / static_cast<double>(edges);
 }
 
+/// Whether surfaces can form a pair, slave first.
+bool fit(Builder& builder, Row& row, const std::array<std::int32_t, 2>& pair) {
+  const auto &slave = builder.model.surfaces[pair[0]], &master = builder.model.surfaces[pair[1]];
+  if (slave.kind != Surface::Kind::analytical && (is_rigid(builder.model, master) || deforms(builder.model, master))) return true;
+  if (!builder.is_poisoned(row.name(0)) && !builder.is_poisoned(row.name(1)))
+    row.error(fmt::format("slave {} and master {} do not fit: the slave is made of element faces or nodes, the master is an analytical "
+                          "rigid surface or made of element faces; swap or replace them",
+                          row.name(0), row.name(1)));
+  return false;
+}
+
+/// ADJUST: slave nodes of a set, or within a distance of the master, begin on the master, without strain.
+void adjust(Builder& builder, const Block& block, const Row& row, const std::array<std::int32_t, 2>& pair) {
+  Model& model = builder.model;
+  const auto text = block.value("ADJUST");
+  const auto distance = parse_real(text);
+  std::vector<std::int32_t> chosen;
+  if (!distance && !builder.nodes_of(text, block, row.location(), chosen)) return;
+  std::ranges::sort(chosen);
+  const FaceProjection faces(model, model.surfaces[pair[1]]);
+  for (const auto node : surface_nodes(model, model.surfaces[pair[0]])) {
+    if (!distance && !std::ranges::binary_search(chosen, node)) continue;
+    if (const auto place = faces.nearest(model.nodes.coordinates[node], distance.value_or(HUGE_VAL)))
+      model.nodes.coordinates[node] = place->position;
+  }
+}
+
 /// Adds the pair, or in a step takes up the one that is known (a deck may repeat its pairs for the explicit steps).
 void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t interaction) {
   const auto surfaces = surfaces_of(builder, block, row);
   if (!surfaces) return;
-  const auto& all = builder.model.surfaces;
-  const bool told = builder.is_poisoned(row.name(0)) || builder.is_poisoned(row.name(1));
-  if (!is_rigid(builder.model, all[(*surfaces)[1]]) || all[(*surfaces)[0]].kind == Surface::Kind::analytical) {
-    if (!told) {
-      row.error(fmt::format(
-          "slave {} and master {} do not fit: the slave is made of element faces or nodes, the master is an analytical "
-          "rigid surface or made of R3D3 and R3D4; swap or replace them",
-          row.name(0), row.name(1)));
-    }
-    return;
-  }
+  if (!fit(builder, row, *surfaces)) return;
+  const bool mesh = deforms(builder.model, builder.model.surfaces[(*surfaces)[1]]);
+  const bool of_faces = block.value("TYPE") == "SURFACE TO SURFACE";
+  if (of_faces && !mesh)
+    builder.warning(block, block.location, "TYPE=SURFACE TO SURFACE: the nodes of the slave are kept from the rigid master");
+  if (of_faces && mesh && builder.model.surfaces[(*surfaces)[0]].kind == Surface::Kind::nodes)
+    return row.error(fmt::format("TYPE=SURFACE TO SURFACE needs faces, and {} is made of nodes; write NODE TO SURFACE", row.name(0)));
   std::int32_t pair = find_pair(builder.model, *surfaces);
   if (pair >= 0 && !builder.in_step) return row.error("this pair is given twice; remove one");
   if (pair >= 0 && builder.model.contact_pairs[pair].interaction != interaction) {
@@ -168,8 +217,11 @@ void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t inter
   if (pair < 0) {
     pair = static_cast<std::int32_t>(builder.model.contact_pairs.size());
     const auto step = builder.in_step ? static_cast<std::int32_t>(builder.model.steps.size()) - 1 : 0;
-    builder.model.contact_pairs.push_back({(*surfaces)[0], (*surfaces)[1], interaction, step, row.location()});
+    builder.model.contact_pairs.push_back({(*surfaces)[0], (*surfaces)[1], interaction, step, of_faces && mesh, row.location()});
   }
+  if (block.has("ADJUST") && !mesh) return row.error("ADJUST moves nodes onto masters of deformable faces; move these nodes in the mesh");
+  if (block.has("ADJUST") && builder.in_step) return row.error("ADJUST belongs before the steps, where nothing has moved yet; declare the pair there");
+  if (block.has("ADJUST")) adjust(builder, block, row, *surfaces);
   if (block.has("CPSET")) builder.contact_pair_sets[block.value("CPSET")].insert(pair);
   apply_slip_tolerance(builder, pair);
   if (builder.in_step) activate(builder.model.steps.back().active_contact_pairs, pair);
@@ -204,9 +256,6 @@ void tell_enforcement(Builder& builder, const Block& block) {
     builder.warning(block, block.location,
                     "MECHANICAL CONSTRAINT=KINEMATIC: explicit steps enforce contact by penalty; the penetration is small but "
                     "not zero");
-  }
-  if (block.value("TYPE") == "SURFACE TO SURFACE") {
-    builder.warning(block, block.location, "TYPE=SURFACE TO SURFACE: the nodes of the slave are kept from the master");
   }
 }
 
@@ -274,7 +323,7 @@ const RegisterKeyword friction{{"FRICTION",
 const RegisterKeyword surface_behavior{{"SURFACE BEHAVIOR",
                                         Phase::definitions,
                                         Place::anywhere,
-                                        {choice("PRESSURE-OVERCLOSURE", {"HARD"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
+                                        {choice("PRESSURE-OVERCLOSURE", {"HARD", "LINEAR"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
                                         read_surface_behavior,
                                         "SURFACE INTERACTION"}};
 const RegisterKeyword pair{
@@ -282,7 +331,7 @@ const RegisterKeyword pair{
      Phase::history,
      Place::anywhere,
      {required(name("INTERACTION")), choice("TYPE", {"NODE TO SURFACE", "SURFACE TO SURFACE"}),
-      choice("MECHANICAL CONSTRAINT", {"PENALTY", "KINEMATIC"}), choice("OP", {"ADD", "DELETE"}), name("CPSET"),
+      choice("MECHANICAL CONSTRAINT", {"PENALTY", "KINEMATIC"}), choice("OP", {"ADD", "DELETE"}), name("CPSET"), text("ADJUST"),
       foreign("NO THICKNESS"), foreign("WEIGHT"), foreign("SMALL SLIDING")},
      read_pair}};
 const RegisterKeyword model_change{{"MODEL CHANGE",

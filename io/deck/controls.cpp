@@ -57,6 +57,16 @@ void read_time_incrementation(Builder& builder, const Block& block, ImplicitCont
   only_standard(second, factors, -1);
 }
 
+/// N_ls of zero switches the line search off, and so do steps that are held at one, the greatest and the least.
+void read_line_search(Row& row, ImplicitControls& controls) {
+  only_fields(row, {0, 1, 2});
+  const double greatest = row.real_or(1, 1.0, "greatest step"), least = row.real_or(2, 0.0, "least step");
+  if (row.ok() && (greatest != 1.0 || (row.has(2) && least != 1.0)))
+    row.error("of the bounds of the step only 1, 1 is supported, which switches the line search off; leave fields 2 and 3 empty");
+  if (!row.ok()) return;
+  controls.line_search = least != 1.0 && row.integer_or(0, 0, "most line-search iterations") > 0;
+}
+
 void read_controls(Builder& builder, const Block& block) {
   auto& controls = builder.draft.controls;
   if (block.has("RESET")) controls = {};
@@ -73,9 +83,8 @@ void read_controls(Builder& builder, const Block& block) {
     controls.correction_tolerance = row.real_or(1, controls.correction_tolerance, "correction tolerance");
     if (row.ok() && !(controls.residual_tolerance > 0.0 && controls.correction_tolerance > 0.0))
       row.error("tolerances must be positive; correct them");
-  } else {  // N_ls: 0 switches the line search off
-    only_fields(row, {0});
-    controls.line_search = row.integer_or(0, 0, "most line-search iterations") > 0;
+  } else {
+    read_line_search(row, controls);
   }
 }
 

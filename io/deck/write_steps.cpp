@@ -110,12 +110,14 @@ void Writer::contact_changes(std::size_t row) {
   };
   for (std::size_t k = 0; k < model_.contact_pairs.size(); ++k) {
     const auto pair = static_cast<std::int32_t>(k);
-    const auto& [slave, master, interaction, first_step, location] = model_.contact_pairs[k];
+    const auto& [slave, master, interaction, first_step, of_faces, location] = model_.contact_pairs[k];
     const bool now = contains(active, pair), starts = first_step > 0 && first_step == static_cast<std::int32_t>(row);
     const auto* previous = before(model_, row);
     const bool was = previous == nullptr ? first_step == 0 : contains(previous->active_contact_pairs, pair);
     const std::string names = quoted(model_.surfaces[slave].name) + ", " + quoted(model_.surfaces[master].name);
-    if (starts) line("*CONTACT PAIR, INTERACTION={}\n{}", quoted(model_.interactions[interaction].name), names);
+    if (starts)
+      line("*CONTACT PAIR, INTERACTION={}{}\n{}", quoted(model_.interactions[interaction].name),
+           of_faces ? ", TYPE=SURFACE TO SURFACE" : "", names);
     if (now != (was || starts)) line("*MODEL CHANGE, TYPE=CONTACT PAIR, {}\n{}", now ? "ADD" : "REMOVE", names);
   }
 }

@@ -3,38 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "elements/face_shapes.hpp"
+#include "elements/any_face.hpp"
 #include "elements/surface_nodes.hpp"
 #include "math/tensor.hpp"
 
 namespace balocco {
 
 namespace {
-
-struct Shapes {
-  std::array<double, 8> value{}, by_r{}, by_s{};
-};
-
-template <class Face>
-Shapes of(double r, double s) {
-  const auto shapes = Face::at(r, s);
-  Shapes result;
-  std::ranges::copy(shapes.value, result.value.begin());
-  std::ranges::copy(shapes.by_xi, result.by_r.begin());
-  std::ranges::copy(shapes.by_eta, result.by_s.begin());
-  return result;
-}
-
-bool is_triangle(std::size_t nodes) { return nodes == 3 || nodes == 6; }
-
-Shapes shapes_of(std::size_t nodes, double r, double s) {
-  switch (nodes) {
-    case 3: return of<LinearTriangleFace>(r, s);
-    case 6: return of<QuadraticTriangleFace>(r, s);
-    case 8: return of<SerendipityFace>(r, s);
-    default: return of<BilinearFace>(r, s);
-  }
-}
 
 /// Back onto the face.
 void clamp(std::size_t nodes, double& r, double& s) {
@@ -61,7 +36,7 @@ FaceProjection::FaceProjection(const Model& model, const Surface& surface) : mod
   for (const auto& reference : surface.faces) {
     Face face{.nodes = face_nodes(model, reference)};
     face.low = face.high = model.nodes.coordinates[face.nodes.front()];
-    const std::size_t corners = is_triangle(face.nodes.size()) ? 3 : 4;
+    const std::size_t corners = corners_of_face(face.nodes.size());
     for (std::size_t i = 0; i < face.nodes.size(); ++i) {
       const auto& at = model.nodes.coordinates[face.nodes[i]];
       for (int c = 0; c < 3; ++c) {
@@ -84,13 +59,13 @@ std::optional<FacePoint> FaceProjection::project(const Face& face, const Point& 
   double r = is_triangle(nodes) ? 1.0 / 3.0 : 0.0, s = r;
   FacePoint result{.nodes = face.nodes, .weights = {}, .position = {}, .distance = 0.0};
   for (int iteration = 0; iteration < most_iterations; ++iteration) {
-    const auto shapes = shapes_of(nodes, r, s);
+    const auto shapes = face_shapes(nodes, r, s);
     Vector3<double> place{}, along_r{}, along_s{};
     for (std::size_t i = 0; i < nodes; ++i) {
       const Vector3<double> at{model_.nodes.coordinates[face.nodes[i]]};
       place = place + shapes.value[i] * at;
-      along_r = along_r + shapes.by_r[i] * at;
-      along_s = along_s + shapes.by_s[i] * at;
+      along_r = along_r + shapes.by_xi[i] * at;
+      along_s = along_s + shapes.by_eta[i] * at;
     }
     result.position = place.component;
     result.weights.assign(shapes.value.begin(), shapes.value.begin() + static_cast<std::ptrdiff_t>(nodes));

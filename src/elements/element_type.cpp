@@ -40,6 +40,8 @@ bool is_rigid(const Model& model, const Surface& surface) {
   });
 }
 
+bool deforms(const Model& model, const Surface& surface) { return !surface.faces.empty() && !is_rigid(model, surface); }
+
 RegisterElement::RegisterElement(ElementType type) {
   const std::string name = type.name;
   table().insert_or_assign(name, std::move(type));

@@ -60,6 +60,8 @@ std::vector<const ElementType*> element_types();
 
 /// True for analytical surfaces and for those of R3D3 and R3D4 alone: what can be the master of a contact pair.
 bool is_rigid(const Model& model, const Surface& surface);
+/// True for surfaces of the faces of elements that deform.
+bool deforms(const Model& model, const Surface& surface);
 
 struct RegisterElement {
   explicit RegisterElement(ElementType type);

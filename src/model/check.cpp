@@ -13,6 +13,7 @@
 #include "materials/material_option.hpp"
 #include "model/check_constraints.hpp"
 #include "model/check_density.hpp"
+#include "model/check_contact.hpp"
 #include "model/check_failure.hpp"
 #include "model/check_quadratic.hpp"
 #include "model/diagnostics.hpp"
@@ -35,11 +36,10 @@ class Checker {
     check_materials();
     check_laws_of_sections();
     check_rigid_bodies();
-    check_contact();
     check_initial_fields();
     find_idle_nodes();
     for (const auto& step : model_.steps) check_step(step);
-    for (const auto& check : {check_constraints, check_density, check_failure, check_quadratic})
+    for (const auto& check : {check_constraints, check_contact, check_density, check_failure, check_quadratic})
       for (const auto& [location, text] : check(model_)) error(location, text);
     return std::move(found_);
   }
@@ -62,7 +62,6 @@ class Checker {
   void check_laws_of_sections();
   void check_law(const Section& section, std::int32_t material);
   void check_rigid_bodies();
-  void check_contact();
   void check_initial_fields();
   void find_idle_nodes();
   void check_loads(const Step& step);
@@ -292,24 +291,6 @@ void Checker::check_rigid_bodies() {
         }
         carrier_[node] = static_cast<std::int32_t>(b);
       }
-    }
-  }
-}
-
-void Checker::check_contact() {
-  for (const auto& pair : model_.contact_pairs) {
-    const auto& slave = model_.surfaces[pair.slave];
-    const auto& master = model_.surfaces[pair.master];
-    const auto carries = [&](const RigidBody& body) { return body.analytical_surface == pair.master; };
-    if (slave.kind == Surface::Kind::analytical || !is_rigid(model_, master)) {
-      error(pair.location, fmt::format("*CONTACT PAIR: slave {} must be made of element faces or nodes and master {} be "
-                                       "analytical or made of R3D3 and R3D4",
-                                       slave.name, master.name));
-    } else if (master.kind == Surface::Kind::analytical && std::none_of(model_.rigid_bodies.begin(), model_.rigid_bodies.end(), carries)) {
-      error(pair.location,
-            fmt::format("*CONTACT PAIR: surface {} belongs to no rigid body; add *RIGID BODY, ANALYTICAL SURFACE={}, "
-                        "REF NODE=...",
-                        master.name, master.name));
     }
   }
 }

@@ -9,7 +9,7 @@
 
 namespace balocco {
 
-/// Errors, and where they belong: explicit steps with elements of implicit ones, contact of quadratic faces.
+/// Errors, and where they belong: explicit steps with elements of implicit ones.
 std::vector<std::pair<Location, std::string>> check_quadratic(const Model& model);
 
 }  // namespace balocco

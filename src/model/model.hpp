@@ -235,6 +235,10 @@ struct Interaction {
   double shear_stress_limit = std::numeric_limits<double>::infinity();  // of friction
   double penalty_scale = 1.0;             // multiplies the automatic normal stiffness
   std::optional<double> elastic_slip;     // slip at which sticking friction reaches its limit; none: automatic
+  std::optional<double> pressure_slope;   // of a deformable master: pressure per overclosure; none: hard
+  double tension = 0.0;                   // with it, of nodes: the pull at great clearance (CalculiX)
+  double spring_clearance = 0.0;          // and the clearance up to which it pulls; 0: a thousandth of the edge of a node's area
+  std::optional<double> stick_slope;      // likewise: shear stress per slip of what sticks; none: automatic
   Location location;
 };
 
@@ -243,6 +247,7 @@ struct ContactPair {
   std::int32_t slave = -1, master = -1;  // rows of Model::surfaces
   std::int32_t interaction = -1;
   std::int32_t first_step = 0;           // pairs declared inside a step begin there
+  bool of_faces = false;                 // of a deformable master: kept from it are points of the slave's faces, not its nodes
   Location location;
 };
 

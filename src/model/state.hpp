@@ -27,11 +27,12 @@ struct RigidBodyState {
   std::vector<RigidNode> nodes;              // sorted by model row
 };
 
-/// Memory of a slave node of a contact pair with a rigid surface.
+/// Memory of a contact point: a slave node, or a point of a slave face.
 struct ContactPoint {
   double multiplier = 0.0;  // augmented-Lagrange normal force carried over from the implicit solver, >= 0
   double closed = 0.0;      // 1 while in contact
-  Point anchor{};           // in the frame of the master body: sticking point; of an open point: where it is
+  Point anchor{};           // in the frame of the master body: sticking point; of an open point: where it is;
+                            // of a deformable master: face of its surface (-1: none is near), and xi, eta there
   double slip = 0.0;        // accumulated sliding distance
   double frictional_dissipation = 0.0;
   double stiff_spring = 0.0;  // explicit: normal stiffness that `multiplier` goes with; 0: that of the pair
@@ -82,7 +83,7 @@ struct State {
   /// Explicit: per element group, what springs and dashpots added to each element when the step began, or masses were scaled last;
   /// empty: nothing.
   std::vector<std::vector<FrequencyBound>> restrained;
-  std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local slave node
+  std::vector<std::vector<ContactPoint>> contact;         // per contact pair, per local point
   std::vector<RigidBodyState> rigid_bodies;
   // Of constraints, kept by the ranks that hold their nodes:
   std::vector<double> multiplier;          // per row of the model's constraints: force against its gradient, as of a spring that is pulled

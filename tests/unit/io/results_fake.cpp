@@ -136,7 +136,7 @@ Analysis::Analysis(const Model& the_model, const Communicator& the_communicator)
   for (const auto& group : element_groups) {
     current.element_history.emplace_back(static_cast<std::size_t>(group->history_size()) * group->padded_size(), 0.0);
   }
-  current.contact.emplace_back(local_slave_nodes(model, 0, domain).size());
+  current.contact.emplace_back(local_slave_places(model, 0, domain).size());
   RigidBodyState road;
   road.position = {0, 0, -5};
   road.nodes.push_back({4, false, {0.5, 0.25, 0.125}});
@@ -163,10 +163,10 @@ void Analysis::increment(double time_increment) {
       }
     }
   }
-  const auto slaves = local_slave_nodes(model, 0, domain);
+  const auto slaves = local_slave_places(model, 0, domain);
   for (std::size_t i = 0; i < slaves.size(); ++i) {
     ContactPoint& point = current.contact[0][i];
-    const std::int64_t row = domain.node_row[slaves[i]];
+    const std::int64_t row = domain.node_row[slaves[i].node];
     for (double* value : {&point.multiplier, &point.closed, &point.anchor[0], &point.anchor[1], &point.anchor[2], &point.slip,
                           &point.frictional_dissipation}) {
       *value = scramble(*value, row);

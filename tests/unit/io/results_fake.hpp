@@ -11,7 +11,7 @@
 #include "elements/element_type.hpp"
 #include "job_observer.hpp"
 #include "model/results.hpp"
-#include "slave_nodes.hpp"
+#include "local_places.hpp"
 
 namespace balocco::fake {
 

@@ -1,0 +1,205 @@
+#include "mesh_contact.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "contact_resultant.hpp"
+#include "elements/slave_places.hpp"
+#include "slave_surface.hpp"
+
+namespace balocco {
+
+namespace {
+
+/// An open place as near as this, of the faces' edge, has the stiffness of a closed one but no force: so a body that only touches is
+/// held against being pressed, whatever rounding says.
+constexpr double touching = 1e-6;
+/// Up to which CalculiX's springs pull, of the edge of the area of a node.
+constexpr double default_clearance = 1e-3;
+
+std::vector<double> stiffness_per_area(const Model& model, const ContactPair& pair) {
+  const SlaveNodes slave = slave_nodes(model, pair);
+  std::vector<double> density(static_cast<std::size_t>(model.nodes.size()), 0.0);
+  for (std::size_t i = 0; i < slave.rows.size(); ++i) density[slave.rows[i]] = stiff_factor * slave.stiffness[i] / slave.area[i];
+  return density;
+}
+
+}  // namespace
+
+MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& domain)
+    : faces_(model, model.surfaces[model.contact_pairs[row].master], domain.local_node) {
+  const ContactPair& pair = model.contact_pairs[row];
+  std::vector<double> density;
+  if (pair.interaction >= 0) {
+    const Interaction& interaction = model.interactions[pair.interaction];
+    friction_ = interaction.friction;
+    shear_stress_limit_ = interaction.shear_stress_limit;
+    elastic_slip_ = interaction.elastic_slip.value_or(0.0);
+    stick_slope_ = interaction.stick_slope.value_or(0.0);
+    soft_ = interaction.pressure_slope.has_value();
+    if (soft_ && !pair.of_faces) tension_width_ = std::numbers::pi * interaction.tension / *interaction.pressure_slope;
+    spring_clearance_ = interaction.spring_clearance;
+    if (soft_) density.assign(static_cast<std::size_t>(model.nodes.size()), *interaction.pressure_slope);
+  }
+  if (density.empty()) density = stiffness_per_area(model, pair);
+  for (auto& from : slave_places(model, pair)) {
+    if (domain.local_node[from.nodes.front()] < 0) continue;
+    auto& place = places_.emplace_back();
+    for (std::size_t i = 0; i < from.nodes.size(); ++i) {
+      place.nodes.push_back(domain.local_node[from.nodes[i]]);
+      place.stiffness += from.area * from.weights[i] * density[from.nodes[i]];
+    }
+    place.weights = std::move(from.weights);
+    place.area = from.area;
+    place.owned = domain.owned[place.nodes.front()];
+  }
+}
+
+PenaltyParameters MeshContact::parameters(const Place& place) const {
+  return {.stiffness = place.stiffness,
+          .tangential = stick_slope_ * place.area,
+          .friction = friction_,
+          .elastic_slip = elastic_slip_,
+          .shear_limit = shear_stress_limit_ * place.area};
+}
+
+Vector3<double> MeshContact::at(const Place& place, const double* position) const {
+  Vector3<double> sum{};
+  for (std::size_t i = 0; i < place.nodes.size(); ++i) {
+    const double* x = position + 4 * static_cast<std::ptrdiff_t>(place.nodes[i]);
+    sum = sum + place.weights[i] * Vector3<double>{x[0], x[1], x[2]};
+  }
+  return sum;
+}
+
+Vector3<double> MeshContact::anchor_of(const double* position, const ContactPoint& point) const {
+  return faces_.at(position, static_cast<std::int32_t>(point.anchor[0]), point.anchor[1], point.anchor[2]);
+}
+
+std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& place, const FacePlace& foot, double multiplier) const {
+  if (foot.face < 0) return std::nullopt;
+  const double k = place.stiffness, overclosure = -foot.distance;
+  if (tension_width_ > 0.0) {
+    const double clearance = spring_clearance_ > 0.0 ? spring_clearance_ : default_clearance * std::sqrt(place.area);
+    if (foot.distance > clearance) return std::nullopt;
+    const double x = overclosure / tension_width_, share = 0.5 + std::atan(x) / std::numbers::pi;
+    return NormalSpring{k * overclosure * share, -k * (share + x / (std::numbers::pi * (1.0 + x * x))), true};
+  }
+  const double force = multiplier + k * overclosure;
+  if (force > 0.0) return NormalSpring{force, -k, true};
+  if (force > -k * touching * faces_.reach()) return NormalSpring{0.0, -k, false};
+  return std::nullopt;
+}
+
+double MeshContact::spring_energy(const Place& place, double multiplier, double gap) const {
+  const double k = place.stiffness, e = tension_width_;
+  if (e > 0.0) return k * (0.25 * gap * gap + (0.5 * (gap * gap + e * e) * std::atan(-gap / e) + 0.5 * e * gap) / std::numbers::pi);
+  // A multiplier holds without a stretch: nothing is stored where the gap is zero.
+  const double force = std::max(0.0, multiplier - k * gap);
+  return 0.5 * (force * force - multiplier * multiplier) / k;
+}
+
+void MeshContact::open(const FacePlace& foot, ContactPoint& point) const {
+  point.multiplier = point.closed = 0.0;
+  point.anchor = {static_cast<double>(foot.face), foot.xi, foot.eta};
+}
+
+/// The anchor goes to the place of the surface that is nearest to `where`.
+void MeshContact::set_anchor(const double* position, const Vector3<double>& where, const FacePlace& otherwise, ContactPoint& point) const {
+  auto there = faces_.nearest(position, where);
+  if (there.face < 0) there = otherwise;
+  point.anchor = {static_cast<double>(there.face), there.xi, there.eta};
+}
+
+MeshPairing MeshContact::pairing(std::int32_t index, const double* position, const ContactPoint& old) const {
+  const auto& place = places_[index];
+  const auto foot = faces_.nearest(position, at(place, position));
+  if (!spring_at(place, foot, old.multiplier)) return {};
+  const auto anchor = static_cast<std::int32_t>(old.anchor[0]);
+  return {.face = foot.face, .anchor_face = has_anchor(old) && anchor != foot.face ? anchor : -1};
+}
+
+void MeshContact::coupled_nodes(std::int32_t place, const MeshPairing& pairing, std::vector<std::int32_t>& nodes) const {
+  nodes = places_[place].nodes;
+  for (const auto face : {pairing.face, pairing.anchor_face})
+    if (face >= 0) nodes.insert(nodes.end(), faces_.nodes(face).begin(), faces_.nodes(face).end());
+}
+
+void MeshContact::start_step(const double* position, bool active, std::vector<ContactPoint>& points) const {
+  for (std::int32_t i = 0; i < size(); ++i)
+    if (!active || points[i].closed == 0.0) open(faces_.nearest(position, at(places_[i], position)), points[i]);
+}
+
+double MeshContact::augment(const double* position, std::vector<ContactPoint>& points) const {
+  double greatest = 0.0;
+  if (soft_) return greatest;
+  for (std::int32_t i = 0; i < size(); ++i) {
+    const auto foot = faces_.nearest(position, at(places_[i], position));
+    auto& multiplier = points[i].multiplier;
+    multiplier = foot.face < 0 ? 0.0 : std::max(0.0, multiplier - places_[i].stiffness * foot.distance);
+    if (multiplier > 0.0) greatest = std::max(greatest, std::abs(foot.distance));
+  }
+  return greatest;
+}
+
+void MeshContact::lower_multipliers(const double* position, std::vector<ContactPoint>& points) const {
+  for (std::int32_t i = 0; i < size(); ++i) {
+    if (!(points[i].multiplier > 0.0)) continue;
+    const auto foot = faces_.nearest(position, at(places_[i], position));
+    const double gap = foot.face < 0 ? faces_.reach() : std::max(0.0, foot.distance);
+    points[i].multiplier = std::max(0.0, points[i].multiplier - places_[i].stiffness * gap);
+  }
+}
+
+MeshContact::Output MeshContact::output(std::int32_t index, const double* position, const ContactPoint& state) const {
+  const auto& place = places_[index];
+  Output output{.slip = state.slip, .at = at(place, position)};
+  const auto foot = faces_.nearest(position, output.at);
+  output.gap = foot.face < 0 ? faces_.reach() : foot.distance;
+  const auto spring = spring_at(place, foot, state.multiplier);
+  if (!spring || state.closed == 0.0) return output;
+  const auto law = parameters(place);
+  ContactForce<double> contact;
+  contact.pressure = spring->force;
+  if (has_anchor(state) && contact.pressure > 0.0) {
+    auto scratch = state;
+    const auto stretch = output.at - anchor_of(position, state);
+    add_tangential_spring(law, stretch - dot(stretch, foot.normal) * foot.normal, scratch, contact);
+  }
+  output.normal_force = contact.pressure * foot.normal;
+  output.friction_force = contact.friction;
+  output.pressure = contact.pressure / place.area;
+  const double square = dot(contact.friction, contact.friction);
+  output.shear = std::sqrt(square) / place.area;
+  output.spring_energy = spring_energy(place, state.multiplier, foot.distance);
+  if (contact.tangential_stiffness > 0.0) output.spring_energy += 0.5 * square / contact.tangential_stiffness;
+  return output;
+}
+
+void MeshContact::take_forces(std::int32_t index, const double* position, const ContactPoint& state, std::span<double> holding) const {
+  const auto& place = places_[index];
+  const auto found = output(index, position, state);
+  if (!(found.pressure != 0.0)) return;
+  const auto force = found.normal_force + found.friction_force;
+  const auto foot = faces_.nearest(position, found.at);
+  const auto nodes = faces_.nodes(foot.face);
+  const auto shapes = face_shapes(nodes.size(), foot.xi, foot.eta);
+  for (int k = 0; k < 3; ++k) {
+    for (std::size_t i = 0; i < place.nodes.size(); ++i) holding[4 * static_cast<std::size_t>(place.nodes[i]) + k] -= place.weights[i] * force[k];
+    for (std::size_t a = 0; a < nodes.size(); ++a) holding[4 * static_cast<std::size_t>(nodes[a]) + k] += shapes.value[a] * force[k];
+  }
+}
+
+ContactResultant MeshContact::resultant(const Communicator& communicator, const double* position,
+                                        const std::vector<ContactPoint>& points) const {
+  ContactResultantSum sum;
+  for (std::int32_t i = 0; i < size(); ++i) {
+    if (!owned(i)) continue;
+    const auto place = output(i, position, points[i]);
+    sum.add(place.at, place.gap, place.pressure, area(i), place.normal_force, place.friction_force);
+  }
+  return sum.total(communicator);
+}
+
+}  // namespace balocco

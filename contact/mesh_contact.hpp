@@ -1,0 +1,123 @@
+// Contact of the places of a slave surface (its nodes, or points of its faces) with the faces of deformable elements: finite sliding,
+// Coulomb friction with elastic stick. The force of a place acts on the nodes of the slave by its weights, its opposite on those of the
+// master's face by the shape functions at the foot.
+//
+// Normal force of a place: t = max(0, multiplier - stiffness * gap), the stiffness being its area times the slope that the deck gives
+// (PRESSURE-OVERCLOSURE=LINEAR; the multiplier is zero then), or 20 times that of the layer of slave elements behind it
+// (slave_surface.hpp), with a multiplier that the implicit solver augments. Where the deck gives LINEAR a tension s, nodes have the law of
+// CalculiX's node-to-face springs, pressure k d (1/2 + arctan(d / e) / pi) of the overclosure d with e = pi s / k, which pulls with s
+// at great clearance (CalculiX CrunchiX User's Manual, "Node-to-Face Penalty Contact"). Friction: a tangential spring from the anchor, a place of
+// the master that moves with its material, cut at mu * t.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "contact_law.hpp"
+#include "domain.hpp"
+#include "master_faces.hpp"
+#include "model/model.hpp"
+#include "model/results.hpp"
+#include "model/state.hpp"
+
+namespace balocco {
+
+/// Which nodes a contact place couples: decides the pattern of the stiffness.
+struct MeshPairing {
+  std::int32_t face = -1, anchor_face = -1;  // of the master; -1: none
+  bool operator==(const MeshPairing&) const = default;
+};
+
+/// Forces of a contact place on its nodes, and their derivatives by the nodes' positions.
+struct MeshTangent {
+  bool closed = false;
+  std::vector<std::int32_t> nodes;     // local: of the slave, of the master's face, of that of the anchor where it is another one
+  std::vector<double> slave_shares;    // of each of them in a motion of the place: 1 of those of the slave, 0 of the others
+  std::vector<double> force;           // 3 a node
+  std::vector<double> derivative;      // row-major, 3 rows and columns a node
+  Vector3<double> slip{};              // over the increment
+};
+
+class MeshContact {
+ public:
+  MeshContact() = default;
+  /// Places on this rank, which knows all nodes of both surfaces. @throws InputError where the surfaces cannot form a pair.
+  MeshContact(const Model& model, std::int32_t pair, const Domain& domain);
+
+  std::int32_t size() const { return static_cast<std::int32_t>(places_.size()); }
+  /// Whether this rank adds the forces of a place.
+  bool owned(std::int32_t place) const { return places_[place].owned; }
+  double area(std::int32_t place) const { return places_[place].area; }
+  std::span<const std::int32_t> nodes(std::int32_t place) const { return places_[place].nodes; }
+  std::span<const double> weights(std::int32_t place) const { return places_[place].weights; }
+  /// Whether the deck gives the slope of pressure, which is not augmented then.
+  bool is_soft() const { return soft_; }
+
+  /// Sorts the faces by where they are, before the other functions are called with these positions.
+  void locate(const double* position) { faces_.locate(position); }
+  /// The faces that a place would be coupled with at these positions.
+  MeshPairing pairing(std::int32_t place, const double* position, const ContactPoint& old) const;
+  /// Nodes that a place with this pairing couples, in the order of MeshTangent::nodes.
+  void coupled_nodes(std::int32_t place, const MeshPairing& pairing, std::vector<std::int32_t>& nodes) const;
+
+  /// At the start of a step: places of a pair that is not `active` open, and open places stand over the surface where they are.
+  void start_step(const double* position, bool active, std::vector<ContactPoint>& points) const;
+  /// Force and derivative of a place whose history at the start of the increment is `old`, for the nodes of `pairing`, which the place
+  /// may have left; `updated` receives the history. `sticks`, `last_slip`: see RigidContact::linearize.
+  void linearize(std::int32_t place, const MeshPairing& pairing, const double* position, const ContactPoint& old, ContactPoint& updated,
+                 bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const;
+
+  /// Adds the spring's part to the multipliers of places that are not soft. @return greatest gap or penetration of a closed place on
+  /// this rank before.
+  double augment(const double* position, std::vector<ContactPoint>& points) const;
+  /// Takes from the multipliers what pushes across a gap.
+  void lower_multipliers(const double* position, std::vector<ContactPoint>& points) const;
+
+  /// Of a place, for output; forces on the slave. A place that `state` says is open has no force.
+  struct Output {
+    double gap = 0.0, pressure = 0.0, shear = 0.0, slip = 0.0;
+    Vector3<double> normal_force{}, friction_force{}, at{};
+    double spring_energy = 0.0;
+  };
+  Output output(std::int32_t place, const double* position, const ContactPoint& state) const;
+  /// Takes the forces of a place from those that hold its nodes, 4 values a node.
+  void take_forces(std::int32_t place, const double* position, const ContactPoint& state, std::span<double> holding) const;
+  /// Resultant over all ranks. Collective, exact.
+  ContactResultant resultant(const Communicator& communicator, const double* position, const std::vector<ContactPoint>& points) const;
+
+ private:
+  struct Place {
+    std::vector<std::int32_t> nodes;  // local
+    std::vector<double> weights;
+    double area = 0.0, stiffness = 0.0;
+    bool owned = false;
+  };
+  PenaltyParameters parameters(const Place& place) const;
+  Vector3<double> at(const Place& place, const double* position) const;
+  Vector3<double> anchor_of(const double* position, const ContactPoint& point) const;
+  bool has_anchor(const ContactPoint& point) const { return friction_ > 0.0 && point.anchor[0] >= 0.0; }
+  /// Force of the normal spring and its derivative by the gap; an open place that touches has no force, but a derivative.
+  struct NormalSpring {
+    double force = 0.0, slope = 0.0;
+    bool closed = false;
+  };
+  /// Nothing where the place is open. `multiplier`: of its history.
+  std::optional<NormalSpring> spring_at(const Place& place, const FacePlace& foot, double multiplier) const;
+  double spring_energy(const Place& place, double multiplier, double gap) const;
+  template <int face_nodes>
+  void linearize_on(std::int32_t place, const FacePlace& foot, const NormalSpring& spring, const double* position, const ContactPoint& old, ContactPoint& updated,
+                    bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const;
+  void set_anchor(const double* position, const Vector3<double>& where, const FacePlace& otherwise, ContactPoint& point) const;
+  void open(const FacePlace& foot, ContactPoint& point) const;
+
+  MasterFaces faces_;
+  std::vector<Place> places_;
+  double friction_ = 0.0, elastic_slip_ = 0.0, stick_slope_ = 0.0;
+  double shear_stress_limit_ = std::numeric_limits<double>::infinity();
+  bool soft_ = false;
+  double tension_width_ = 0.0;  // overclosure over which a spring that may pull becomes stiff; 0: none may
+  double spring_clearance_ = 0.0;
+};
+
+}  // namespace balocco
