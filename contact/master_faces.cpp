@@ -66,7 +66,7 @@ MasterFaces::MasterFaces(const Model& model, const Surface& surface, std::span<c
     for (std::size_t i = 0; i < corners; ++i, ++edges)
       length += norm(Vector3<double>{model.nodes.coordinates[rows[(i + 1) % corners]]} - Vector3<double>{model.nodes.coordinates[rows[i]]});
   }
-  if (edges > 0) reach_ = length / static_cast<double>(edges);
+  if (edges > 0) reach_ = 0.5 * length / static_cast<double>(edges);
   join_edges(last + 1);
 }
 
@@ -99,7 +99,7 @@ std::size_t MasterFaces::CellHash::operator()(const Cell& cell) const {
 MasterFaces::Cell MasterFaces::cell_of(const Vector3<double>& place) const {
   constexpr double far = 1e9;
   Cell cell{};
-  for (int i = 0; i < 3; ++i) cell[i] = static_cast<std::int32_t>(std::floor(std::clamp(place[i] / (2.0 * reach_), -far, far)));
+  for (int i = 0; i < 3; ++i) cell[i] = static_cast<std::int32_t>(std::floor(std::clamp(place[i] / (4.0 * reach_), -far, far)));
   return cell;
 }
 
@@ -112,16 +112,17 @@ MasterFaces::Box MasterFaces::box_around(const double* position, const Face& fac
       box.high[i] = std::max(box.high[i], x);
     }
   for (int i = 0; i < 3; ++i) {
-    box.low[i] -= reach_;
-    box.high[i] += reach_;
+    box.low[i] -= 2.0 * reach_;
+    box.high[i] += 2.0 * reach_;
   }
   return box;
 }
 
 void MasterFaces::locate(const double* position) {
-  cells_.clear();
+  for (auto& [cell, faces] : cells_) faces.clear();
+  boxes_.clear();
   for (std::int32_t f = 0; f < size(); ++f) {
-    const auto box = box_around(position, faces_[f]);
+    const auto& box = boxes_.emplace_back(box_around(position, faces_[f]));
     const auto low = cell_of(box.low), high = cell_of(box.high);
     for (auto x = low[0]; x <= high[0]; ++x)
       for (auto y = low[1]; y <= high[1]; ++y)
@@ -233,6 +234,10 @@ FacePlace MasterFaces::nearest(const double* position, const Vector3<double>& pl
   if (found == cells_.end()) return best;
   double least = reach_;
   for (const auto f : found->second) {
+    const auto& box = boxes_[f];
+    bool inside = true;
+    for (int i = 0; i < 3; ++i) inside = inside && place[i] >= box.low[i] && place[i] <= box.high[i];
+    if (!inside) continue;
     const auto here = foot(position, f, place);
     if (here.face < 0 || std::abs(here.distance) > reach_) continue;
     if (best.face >= 0 && std::abs(here.distance) >= least) continue;

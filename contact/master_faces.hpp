@@ -35,10 +35,11 @@ class MasterFaces {
 
   std::int32_t size() const { return static_cast<std::int32_t>(faces_.size()); }
   std::span<const std::int32_t> nodes(std::int32_t face) const { return faces_[face].nodes; }  // local
-  /// How deep below the surface a place may be that has not passed it by: the mean edge of the faces.
+  /// How deep below the surface a place may be that has not passed it by: half of the mean edge of the faces.
   double reach() const { return reach_; }
 
-  /// Sorts the faces by where they are: `position` has 4 values a node. Until the next call they may move by little.
+  /// Sorts the faces by where they are: `position` has 4 values a node. Until the next call they, and what is near them, may move by half
+  /// of the reach.
   void locate(const double* position);
   FacePlace nearest(const double* position, const Vector3<double>& place) const;
   /// Of a face and its coordinates.
@@ -71,6 +72,7 @@ class MasterFaces {
   std::vector<std::vector<std::int32_t>> faces_of_corner_;  // per local node
   std::vector<bool> ends_at_;                               // per local node: a corner at which the surface ends
   double reach_ = 0.0;
+  std::vector<Box> boxes_;  // where faces may be found, as they were located
   std::unordered_map<Cell, std::vector<std::int32_t>, CellHash> cells_;
 };
 

@@ -6,6 +6,7 @@
 
 #include "contact_resultant.hpp"
 #include "elements/slave_places.hpp"
+#include "elements/surface_nodes.hpp"
 #include "slave_surface.hpp"
 
 namespace balocco {
@@ -21,15 +22,16 @@ constexpr double default_clearance = 1e-3;
 std::vector<double> stiffness_per_area(const Model& model, const ContactPair& pair) {
   const SlaveNodes slave = slave_nodes(model, pair);
   std::vector<double> density(static_cast<std::size_t>(model.nodes.size()), 0.0);
-  for (std::size_t i = 0; i < slave.rows.size(); ++i) density[slave.rows[i]] = stiff_factor * slave.stiffness[i] / slave.area[i];
+  for (std::size_t i = 0; i < slave.rows.size(); ++i) density[slave.rows[i]] = slave.stiffness[i] / slave.area[i];
   return density;
 }
 
 }  // namespace
 
-MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& domain)
-    : faces_(model, model.surfaces[model.contact_pairs[row].master], domain.local_node) {
+MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& domain) {
   const ContactPair& pair = model.contact_pairs[row];
+  const auto nodes = surface_nodes(model, model.surfaces[pair.slave]);
+  if (nodes.empty() || domain.local_node[nodes.front()] >= 0) faces_ = MasterFaces(model, model.surfaces[pair.master], domain.local_node);
   std::vector<double> density;
   if (pair.interaction >= 0) {
     const Interaction& interaction = model.interactions[pair.interaction];
@@ -54,10 +56,31 @@ MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& dom
     place.area = from.area;
     place.owned = domain.owned[place.nodes.front()];
   }
+  for (const auto surface : {pair.slave, pair.master})
+    for (const auto node : surface_nodes(model, model.surfaces[surface]))
+      if (const auto local = domain.local_node[node]; local >= 0) nodes_.push_back(local);
+  master_area_.resize(domain.local_node.size());
+  for (const auto& from : slave_places(model, {.slave = pair.master, .master = pair.master}))
+    if (const auto local = domain.local_node[from.nodes.front()]; local >= 0) master_area_[local] = from.area;
 }
 
-PenaltyParameters MeshContact::parameters(const Place& place) const {
-  return {.stiffness = place.stiffness,
+void MeshContact::follow(const double* position) {
+  const double most = 0.5 * faces_.reach();
+  bool moved = located_.empty();
+  for (std::size_t i = 0; i < nodes_.size() && !moved; ++i) {
+    const double* x = position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]);
+    double square = 0.0;
+    for (int k = 0; k < 3; ++k) square += (x[k] - located_[3 * i + k]) * (x[k] - located_[3 * i + k]);
+    moved = !(square < most * most);
+  }
+  if (!moved || nodes_.empty()) return;
+  located_.resize(3 * nodes_.size());
+  for (std::size_t i = 0; i < nodes_.size(); ++i) std::copy_n(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]), 3, &located_[3 * i]);
+  faces_.locate(position);
+}
+
+PenaltyParameters MeshContact::parameters(const Place& place, const ContactPoint& state) const {
+  return {.stiffness = stiffness(place, state),
           .tangential = stick_slope_ * place.area,
           .friction = friction_,
           .elastic_slip = elastic_slip_,
@@ -77,27 +100,27 @@ Vector3<double> MeshContact::anchor_of(const double* position, const ContactPoin
   return faces_.at(position, static_cast<std::int32_t>(point.anchor[0]), point.anchor[1], point.anchor[2]);
 }
 
-std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& place, const FacePlace& foot, double multiplier) const {
+std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& place, const FacePlace& foot, const ContactPoint& state) const {
   if (foot.face < 0) return std::nullopt;
-  const double k = place.stiffness, overclosure = -foot.distance;
+  const double k = stiffness(place, state), overclosure = -foot.distance;
   if (tension_width_ > 0.0) {
     const double clearance = spring_clearance_ > 0.0 ? spring_clearance_ : default_clearance * std::sqrt(place.area);
     if (foot.distance > clearance) return std::nullopt;
     const double x = overclosure / tension_width_, share = 0.5 + std::atan(x) / std::numbers::pi;
     return NormalSpring{k * overclosure * share, -k * (share + x / (std::numbers::pi * (1.0 + x * x))), true};
   }
-  const double force = multiplier + k * overclosure;
+  const double force = state.multiplier + k * overclosure;
   if (force > 0.0) return NormalSpring{force, -k, true};
   if (force > -k * touching * faces_.reach()) return NormalSpring{0.0, -k, false};
   return std::nullopt;
 }
 
-double MeshContact::spring_energy(const Place& place, double multiplier, double gap) const {
-  const double k = place.stiffness, e = tension_width_;
+double MeshContact::spring_energy(const Place& place, const ContactPoint& state, double gap) const {
+  const double k = stiffness(place, state), e = tension_width_;
   if (e > 0.0) return k * (0.25 * gap * gap + (0.5 * (gap * gap + e * e) * std::atan(-gap / e) + 0.5 * e * gap) / std::numbers::pi);
   // A multiplier holds without a stretch: nothing is stored where the gap is zero.
-  const double force = std::max(0.0, multiplier - k * gap);
-  return 0.5 * (force * force - multiplier * multiplier) / k;
+  const double force = std::max(0.0, state.multiplier - k * gap), held = std::max(0.0, state.multiplier);
+  return 0.5 * (force * force - held * held) / k;
 }
 
 void MeshContact::open(const FacePlace& foot, ContactPoint& point) const {
@@ -115,7 +138,7 @@ void MeshContact::set_anchor(const double* position, const Vector3<double>& wher
 MeshPairing MeshContact::pairing(std::int32_t index, const double* position, const ContactPoint& old) const {
   const auto& place = places_[index];
   const auto foot = faces_.nearest(position, at(place, position));
-  if (!spring_at(place, foot, old.multiplier)) return {};
+  if (!spring_at(place, foot, old)) return {};
   const auto anchor = static_cast<std::int32_t>(old.anchor[0]);
   return {.face = foot.face, .anchor_face = has_anchor(old) && anchor != foot.face ? anchor : -1};
 }
@@ -137,7 +160,7 @@ double MeshContact::augment(const double* position, std::vector<ContactPoint>& p
   for (std::int32_t i = 0; i < size(); ++i) {
     const auto foot = faces_.nearest(position, at(places_[i], position));
     auto& multiplier = points[i].multiplier;
-    multiplier = foot.face < 0 ? 0.0 : std::max(0.0, multiplier - places_[i].stiffness * foot.distance);
+    multiplier = foot.face < 0 ? 0.0 : std::max(0.0, multiplier - stiffness(places_[i], points[i]) * foot.distance);
     if (multiplier > 0.0) greatest = std::max(greatest, std::abs(foot.distance));
   }
   return greatest;
@@ -148,7 +171,7 @@ void MeshContact::lower_multipliers(const double* position, std::vector<ContactP
     if (!(points[i].multiplier > 0.0)) continue;
     const auto foot = faces_.nearest(position, at(places_[i], position));
     const double gap = foot.face < 0 ? faces_.reach() : std::max(0.0, foot.distance);
-    points[i].multiplier = std::max(0.0, points[i].multiplier - places_[i].stiffness * gap);
+    points[i].multiplier = std::max(0.0, points[i].multiplier - stiffness(places_[i], points[i]) * gap);
   }
 }
 
@@ -157,9 +180,9 @@ MeshContact::Output MeshContact::output(std::int32_t index, const double* positi
   Output output{.slip = state.slip, .at = at(place, position)};
   const auto foot = faces_.nearest(position, output.at);
   output.gap = foot.face < 0 ? faces_.reach() : foot.distance;
-  const auto spring = spring_at(place, foot, state.multiplier);
+  const auto spring = spring_at(place, foot, state);
   if (!spring || state.closed == 0.0) return output;
-  const auto law = parameters(place);
+  const auto law = parameters(place, state);
   ContactForce<double> contact;
   contact.pressure = spring->force;
   if (has_anchor(state) && contact.pressure > 0.0) {
@@ -172,7 +195,7 @@ MeshContact::Output MeshContact::output(std::int32_t index, const double* positi
   output.pressure = contact.pressure / place.area;
   const double square = dot(contact.friction, contact.friction);
   output.shear = std::sqrt(square) / place.area;
-  output.spring_energy = spring_energy(place, state.multiplier, foot.distance);
+  output.spring_energy = spring_energy(place, state, foot.distance);
   if (contact.tangential_stiffness > 0.0) output.spring_energy += 0.5 * square / contact.tangential_stiffness;
   return output;
 }

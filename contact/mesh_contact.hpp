@@ -3,8 +3,8 @@
 // master's face by the shape functions at the foot.
 //
 // Normal force of a place: t = max(0, multiplier - stiffness * gap), the stiffness being its area times the slope that the deck gives
-// (PRESSURE-OVERCLOSURE=LINEAR; the multiplier is zero then), or 20 times that of the layer of slave elements behind it
-// (slave_surface.hpp), with a multiplier that the implicit solver augments. Where the deck gives LINEAR a tension s, nodes have the law of
+// (PRESSURE-OVERCLOSURE=LINEAR; the multiplier is zero then), or in explicit steps that of the layer of slave elements behind it
+// (slave_surface.hpp), in implicit steps 20 times as much, with a multiplier that the solver augments. Where the deck gives LINEAR a tension s, nodes have the law of
 // CalculiX's node-to-face springs, pressure k d (1/2 + arctan(d / e) / pi) of the overclosure d with e = pi s / k, which pulls with s
 // at great clearance (CalculiX CrunchiX User's Manual, "Node-to-Face Penalty Contact"). Friction: a tangential spring from the anchor, a place of
 // the master that moves with its material, cut at mu * t.
@@ -49,13 +49,15 @@ class MeshContact {
   /// Whether this rank adds the forces of a place.
   bool owned(std::int32_t place) const { return places_[place].owned; }
   double area(std::int32_t place) const { return places_[place].area; }
+  /// Of both surfaces, local.
+  std::span<const std::int32_t> all_nodes() const { return nodes_; }
   std::span<const std::int32_t> nodes(std::int32_t place) const { return places_[place].nodes; }
   std::span<const double> weights(std::int32_t place) const { return places_[place].weights; }
   /// Whether the deck gives the slope of pressure, which is not augmented then.
   bool is_soft() const { return soft_; }
 
-  /// Sorts the faces by where they are, before the other functions are called with these positions.
-  void locate(const double* position) { faces_.locate(position); }
+  /// Keeps an eye on where the surfaces are, before the other functions are called with these positions.
+  void follow(const double* position);
   /// The faces that a place would be coupled with at these positions.
   MeshPairing pairing(std::int32_t place, const double* position, const ContactPoint& old) const;
   /// Nodes that a place with this pairing couples, in the order of MeshTangent::nodes.
@@ -63,6 +65,22 @@ class MeshContact {
 
   /// At the start of a step: places of a pair that is not `active` open, and open places stand over the surface where they are.
   void start_step(const double* position, bool active, std::vector<ContactPoint>& points) const;
+  /// Gives places the springs of an implicit step, or of an explicit one; the forces of closed ones stay.
+  void choose_springs(const double* position, bool implicit, std::vector<ContactPoint>& points) const;
+
+  /// Explicit: advances the places that this rank owns and adds their forces, rounded with each node's constant, to the nodes of both
+  /// surfaces. Call before the halo sums.
+  void add_forces(const double* position, std::vector<ContactPoint>& points, double* force);
+  /// Adds the stiffness of the springs that act on each node of the surfaces, each counted with all that it moves, to `sum`: over the mass
+  /// of the node it bounds the square of a frequency (Gershgorin). Wherever places may come.
+  void add_spring_stiffness(std::span<double> sum) const;
+  /// Deepest place of this rank below the surface, of those that are open or of all, and its first node.
+  struct Deepest {
+    double depth = 0.0;
+    std::int32_t node = -1;  // local
+  };
+  Deepest deepest(const double* position, const std::vector<ContactPoint>& points, bool open_alone) const;
+
   /// Force and derivative of a place whose history at the start of the increment is `old`, for the nodes of `pairing`, which the place
   /// may have left; `updated` receives the history. `sticks`, `last_slip`: see RigidContact::linearize.
   void linearize(std::int32_t place, const MeshPairing& pairing, const double* position, const ContactPoint& old, ContactPoint& updated,
@@ -93,7 +111,9 @@ class MeshContact {
     double area = 0.0, stiffness = 0.0;
     bool owned = false;
   };
-  PenaltyParameters parameters(const Place& place) const;
+  /// Of the spring that `state` has.
+  double stiffness(const Place& place, const ContactPoint& state) const { return state.implicit_spring > 0.0 ? state.implicit_spring : place.stiffness; }
+  PenaltyParameters parameters(const Place& place, const ContactPoint& state) const;
   Vector3<double> at(const Place& place, const double* position) const;
   Vector3<double> anchor_of(const double* position, const ContactPoint& point) const;
   bool has_anchor(const ContactPoint& point) const { return friction_ > 0.0 && point.anchor[0] >= 0.0; }
@@ -102,16 +122,21 @@ class MeshContact {
     double force = 0.0, slope = 0.0;
     bool closed = false;
   };
-  /// Nothing where the place is open. `multiplier`: of its history.
-  std::optional<NormalSpring> spring_at(const Place& place, const FacePlace& foot, double multiplier) const;
-  double spring_energy(const Place& place, double multiplier, double gap) const;
+  /// Nothing where the place is open.
+  std::optional<NormalSpring> spring_at(const Place& place, const FacePlace& foot, const ContactPoint& state) const;
+  double spring_energy(const Place& place, const ContactPoint& state, double gap) const;
+  void keep_force(const double* position, const Place& place, double spring, ContactPoint& point) const;
   template <int face_nodes>
   void linearize_on(std::int32_t place, const FacePlace& foot, const NormalSpring& spring, const double* position, const ContactPoint& old, ContactPoint& updated,
                     bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const;
+  void advance(const double* position, const Place& place, ContactPoint& point, double* force) const;
   void set_anchor(const double* position, const Vector3<double>& where, const FacePlace& otherwise, ContactPoint& point) const;
   void open(const FacePlace& foot, ContactPoint& point) const;
 
   MasterFaces faces_;
+  std::vector<std::int32_t> nodes_;  // local, of both surfaces
+  std::vector<double> located_;      // where they were when the faces were located, 3 a node
+  std::vector<double> master_area_;  // per local node: share of the area of the master, undeformed
   std::vector<Place> places_;
   double friction_ = 0.0, elastic_slip_ = 0.0, stick_slope_ = 0.0;
   double shear_stress_limit_ = std::numeric_limits<double>::infinity();

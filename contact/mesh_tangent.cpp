@@ -168,7 +168,7 @@ void MeshContact::linearize_on(std::int32_t index, const FacePlace& found, const
                                const ContactPoint& old, ContactPoint& updated, bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const {
   using Scalar = typename MovingFoot<N>::Scalar;
   const auto& place = places_[index];
-  const auto law = parameters(place);
+  const auto law = parameters(place, old);
   const MovingFoot<N> moving(found, faces_.nodes(found.face), position, at(place, position), faces_.reach());
   ContactForce<Scalar> contact;
   contact.pressure = Scalar::chain(spring.force, spring.slope, moving.gap);
@@ -228,7 +228,7 @@ void MeshContact::linearize(std::int32_t index, const MeshPairing& pairing, cons
   tangent.slip = {};
   updated = old;
   const auto foot = faces_.nearest(position, at(place, position));
-  const auto spring = spring_at(place, foot, old.multiplier);
+  const auto spring = spring_at(place, foot, old);
   if (foot.face != pairing.face || !spring) return open(foot, updated);
   switch (faces_.nodes(foot.face).size()) {
     case 3: return linearize_on<3>(index, foot, *spring, position, old, updated, sticks, last_slip, tangent);

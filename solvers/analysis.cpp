@@ -230,13 +230,15 @@ void Analysis::start_step(const Step& step) {
   apply_attachments(step);
   for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
     const bool active = std::ranges::count(step.active_contact_pairs, static_cast<std::int32_t>(pair)) > 0;
-    mesh_contacts[pair].locate(current.position.data());
+    const bool implicit = !std::holds_alternative<ExplicitProcedure>(step.procedure);
+    mesh_contacts[pair].follow(current.position.data());
     mesh_contacts[pair].start_step(current.position.data(), active, current.contact[pair]);
+    mesh_contacts[pair].choose_springs(current.position.data(), implicit, current.contact[pair]);
     const auto& contact = contacts[pair];
     if (contact.master_body() < 0) continue;
     const auto& master = current.rigid_bodies[contact.master_body()];
     contact.start_step(current.position.data(), master, active, current.contact[pair]);
-    if (!std::holds_alternative<ExplicitProcedure>(step.procedure))
+    if (implicit)
       contact.choose_implicit_springs(current.position.data(), master, current.contact[pair]);
   }
 }
@@ -282,7 +284,7 @@ void Analysis::apply_mass_scale() {
 }
 
 void Analysis::take_up_checkpoint() {
-  for (auto& contact : mesh_contacts) contact.locate(current.position.data());
+  for (auto& contact : mesh_contacts) contact.follow(current.position.data());
   index_rigid_nodes();
   apply_mass_scale();
   const std::array of_rows{&current.multiplier, &current.guide_motion, &current.guide_locked};

@@ -16,38 +16,51 @@ struct NodalContact {
   Point normal_force{}, friction_force{};
 };
 
+/// Sums of three components over the copies of shared nodes.
+void sum_over_copies(const Analysis& analysis, std::vector<double>& nodal) {
+  analysis.domain.halo->begin_sum(nodal.data());
+  analysis.domain.halo->finish_sum(nodal.data());
+}
+
+/// Of every slave node on this rank of a pair with a deformable master; each rank knows the places that it owns. Collective.
 std::map<std::int32_t, NodalContact> nodes_of_mesh_contact(const Analysis& analysis, std::size_t pair) {
   const auto& contact = analysis.mesh_contacts[pair];
+  const std::size_t size = 4 * (static_cast<std::size_t>(analysis.domain.size()) + 1);  // no constants in the fourths: plain sums
+  std::vector<double> normal(size), friction(size), first(size), second(size);
   std::map<std::int32_t, NodalContact> nodes;
-  std::map<std::int32_t, double> shares;
   for (std::int32_t place = 0; place < contact.size(); ++place) {
+    for (const auto node : contact.nodes(place)) nodes[node];
+    if (!contact.owned(place)) continue;
     const auto output = contact.output(place, analysis.current.position.data(), analysis.current.contact[pair][place]);
     for (std::size_t i = 0; i < contact.nodes(place).size(); ++i) {
-      const auto node = contact.nodes(place)[i];
+      const std::size_t at = 4 * static_cast<std::size_t>(contact.nodes(place)[i]);
       const double weight = contact.weights(place)[i], share = std::abs(weight) * contact.area(place);
-      auto& sum = nodes[node];
-      shares[node] += share;
-      sum.gap += share * output.gap;
-      sum.pressure += share * output.pressure;
-      sum.shear += share * output.shear;
-      sum.slip += share * output.slip;
+      const Vector3<double> told{output.gap, output.pressure, output.shear};
       for (int k = 0; k < 3; ++k) {
-        sum.normal_force[k] += weight * output.normal_force[k];
-        sum.friction_force[k] += weight * output.friction_force[k];
+        normal[at + k] += weight * output.normal_force[k];
+        friction[at + k] += weight * output.friction_force[k];
+        first[at + k] += share * told[k];
       }
+      second[at] += share * output.slip;
+      second[at + 1] += share;
     }
   }
-  for (auto& [node, sum] : nodes)
-    for (double* value : {&sum.gap, &sum.pressure, &sum.shear, &sum.slip}) *value /= shares[node];
+  for (auto* sums : {&normal, &friction, &first, &second}) sum_over_copies(analysis, *sums);
+  for (auto& [node, sum] : nodes) {
+    const std::size_t at = 4 * static_cast<std::size_t>(node);
+    const double whole = second[at + 1];
+    sum = {.gap = first[at] / whole, .pressure = first[at + 1] / whole, .shear = first[at + 2] / whole, .slip = second[at] / whole,
+           .normal_force = {normal[at], normal[at + 1], normal[at + 2]}, .friction_force = {friction[at], friction[at + 1], friction[at + 2]}};
+  }
   return nodes;
 }
 
-/// Calls visit(local node, what it tells) for the slave nodes on this rank of all pairs.
+/// Calls visit(local node, what it tells) for the slave nodes on this rank of all pairs. Collective.
 template <class Visit>
 void for_each_slave_node(const Analysis& analysis, Visit visit) {
   for_each_contact_point(analysis, [&](std::int32_t node, const RigidContact::Output& output, const auto&...) { visit(node, output); });
   for (std::size_t pair = 0; pair < analysis.mesh_contacts.size(); ++pair)
-    if (analysis.mesh_contacts[pair].size() > 0)
+    if (analysis.contacts[pair].master_body() < 0)
       for (const auto& [node, sum] : nodes_of_mesh_contact(analysis, pair)) visit(node, sum);
 }
 

@@ -1,4 +1,4 @@
-// Nodal output of contact: of slave nodes, one value (or vector of three) for each local node.
+// Nodal output of contact: of slave nodes, one value (or vector of three) for each local node. All collective.
 #pragma once
 
 #include "analysis.hpp"

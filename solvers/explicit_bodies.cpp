@@ -214,6 +214,7 @@ void RigidDynamics::sum_forces(const Analysis& analysis, const NodalForces& forc
   if (count == 0) return;
   for (const auto pair : step_.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
+    if (contact.master_body() < 0) continue;
     const auto master = static_cast<std::size_t>(contact.master_body());
     if (bodies_[master].sum < 0) continue;
     contact.add_master_resultant(analysis.current.position.data(), analysis.current.rigid_bodies[master],

@@ -14,6 +14,11 @@ ExplicitContact::ExplicitContact(const Analysis& analysis, const Step& step, con
     : stiffness_(inverse_mass.size(), 0.0) {
   for (const auto row : step.active_contact_pairs) {
     const auto& contact = analysis.contacts[row];
+    if (contact.master_body() < 0) {
+      mesh_pairs_.push_back(row);
+      analysis.mesh_contacts[row].add_spring_stiffness(stiffness_);
+      continue;
+    }
     Pair pair{.row = row,
               .master = bodies.yielding(static_cast<std::size_t>(contact.master_body())),
               .freedom = std::vector<SlaveFreedom>(static_cast<std::size_t>(contact.size())),
@@ -68,27 +73,40 @@ void ExplicitContact::choose_springs(Analysis& analysis) const {
   }
 }
 
-void ExplicitContact::report_overclosure(const Analysis& analysis, Observer& observer) const {
+void ExplicitContact::tell_overclosure(const Analysis& analysis, std::int32_t row, double depth, std::int32_t node, bool thrown,
+                                       Observer& observer) const {
   const auto& model = analysis.model;
   const double touching = 1e-7 * model_size(model);  // coordinates have 7 digits
+  const auto id = node >= 0 ? model.nodes.id[analysis.domain.node_row[node]] : std::int64_t{-1};
+  const auto deepest = analysis.communicator.minimum(Communicator::Located{-depth, id});
+  if (-deepest.value <= touching) return;
+  const auto& definition = model.contact_pairs[row];
+  observer.log(fmt::format(
+      "{}: warning: *CONTACT PAIR: node {} of {} starts {:.4g} below {}, the deepest of its surface, and {}; move the surfaces "
+      "apart, or close them in a static step first",
+      model.where(definition.location), deepest.payload, model.surfaces[definition.slave].name, -deepest.value,
+      model.surfaces[definition.master].name,
+      thrown ? "will be thrown out" : "stays there until it rises: nothing pushes it out"));
+}
+
+void ExplicitContact::report_overclosure(const Analysis& analysis, Observer& observer) const {
+  const auto& state = analysis.current;
   for (const auto& pair : pairs_) {
     const auto& contact = analysis.contacts[pair.row];
-    const auto& state = analysis.current;
-    const auto [depth, node] =
-        contact.deepest(state.position.data(), state.rigid_bodies[contact.master_body()], state.contact[pair.row],
-                        RigidContact::Which::open);
-    const auto id = node >= 0 ? model.nodes.id[analysis.domain.node_row[node]] : std::int64_t{-1};
-    const auto deepest = analysis.communicator.minimum(Communicator::Located{-depth, id});
+    const auto [depth, node] = contact.deepest(state.position.data(), state.rigid_bodies[contact.master_body()], state.contact[pair.row],
+                                               RigidContact::Which::open);
     const bool thrown = analysis.communicator.any(std::ranges::count(pair.stiff, false) > 0);
-    if (-deepest.value <= touching) continue;
-    const auto& definition = model.contact_pairs[pair.row];
-    observer.log(fmt::format(
-        "{}: warning: *CONTACT PAIR: node {} of {} starts {:.4g} below {}, the deepest of its surface, and {}; move the surfaces "
-        "apart, or close them in a static step first",
-        model.where(definition.location), deepest.payload, model.surfaces[definition.slave].name, -deepest.value,
-        model.surfaces[definition.master].name,
-        thrown ? "will be thrown out" : "stays there until it rises: nothing pushes it out"));
+    tell_overclosure(analysis, pair.row, depth, node, thrown, observer);
   }
+  for (const auto row : mesh_pairs_) {
+    const auto [depth, node] = analysis.mesh_contacts[row].deepest(state.position.data(), state.contact[row], true);
+    tell_overclosure(analysis, row, depth, node, true, observer);
+  }
+}
+
+void ExplicitContact::add_mesh_forces(Analysis& analysis, double* force) const {
+  for (const auto row : mesh_pairs_)
+    analysis.mesh_contacts[row].add_forces(analysis.current.position.data(), analysis.current.contact[row], force);
 }
 
 void ExplicitContact::add_forces(Analysis& analysis, double* force) const {
@@ -145,7 +163,9 @@ double ExplicitContact::largest_penetration(const Analysis& analysis) const {
                                                 RigidContact::Which::all)
                                     .depth);
   }
-  return pairs_.empty() ? 0.0 : analysis.communicator.maximum(deepest);
+  for (const auto row : mesh_pairs_)
+    deepest = std::max(deepest, analysis.mesh_contacts[row].deepest(analysis.current.position.data(), analysis.current.contact[row], false).depth);
+  return pairs_.empty() && mesh_pairs_.empty() ? 0.0 : analysis.communicator.maximum(deepest);
 }
 
 void ExplicitContact::report_past_end(const Analysis& analysis, Observer& observer) {

@@ -10,7 +10,7 @@ namespace balocco {
 
 /// A node of a face that is free to move, against a master all whose motion is prescribed, has stiff springs: their forces are
 /// found together with the motion they cause, so that they limit no increment. Nodes of rigid bodies, of node sets, nodes that are
-/// held and nodes against free masters have softer springs, which the increment must follow.
+/// held and nodes against free masters or such that deform have softer springs, which the increment must follow.
 class ExplicitContact {
  public:
   ExplicitContact(const Analysis& analysis, const Step& step, const NodalConstraints& constraints,
@@ -23,6 +23,8 @@ class ExplicitContact {
   /// Warns of nodes that start below a surface. Collective.
   void report_overclosure(const Analysis& analysis, Observer& observer) const;
 
+  /// Deformable masters: before the halo's sums.
+  void add_mesh_forces(Analysis& analysis, double* force) const;
   /// Soft springs: between the halo's two halves, alike on every copy of a node.
   void add_forces(Analysis& analysis, double* force) const;
   /// Stiff springs: when `force` is whole and NodalConstraints::find_velocities() has told what is prescribed.
@@ -54,8 +56,10 @@ class ExplicitContact {
   };
 
   void find_nodal_frequency(const Analysis& analysis);
+  void tell_overclosure(const Analysis& analysis, std::int32_t row, double depth, std::int32_t node, bool thrown, Observer& observer) const;
 
   std::vector<Pair> pairs_;
+  std::vector<std::int32_t> mesh_pairs_;  // rows of those whose masters deform
   std::vector<Held> held_;
   std::vector<double> stiffness_;  // of springs, per local node
   std::vector<double> nodal_frequency_squared_;  // likewise

@@ -15,6 +15,7 @@ namespace {
 void compute_forces(ExplicitStep& cycle) {
   cycle.begin_external_loads();
   cycle.add_interface_elements();
+  cycle.add_mesh_contact();
   cycle.begin_halo();
   cycle.add_interior_elements();
   cycle.rest_failed_elements();

@@ -174,11 +174,15 @@ ForceScale force_scale(const Analysis& analysis, const Step& step, const NodalRe
   add_loads(analysis, step, largest, moment);
   if (std::isfinite(analysis.current.restraint_increment))
     add_restraints(analysis, step, restraints, std::min(increment, analysis.current.restraint_increment), largest, moment);
+  std::vector<double> springs;  // of deformable masters and their slaves
   for (const auto pair : step.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
     for (std::int32_t point = 0; point < contact.size(); ++point)
       largest[contact.nodes()[point]] += contact.normal_stiffness(point) * edge[contact.nodes()[point]];
+    springs.resize(largest.size());
+    analysis.mesh_contacts[pair].add_spring_stiffness(springs);
   }
+  for (std::size_t node = 0; node < springs.size(); ++node) largest[node] += springs[node] * edge[node];
   for (const double value : largest)
     scale.rounding_constant.push_back(rounding_constant(value > 0.0 ? safety * value : 1.0));
   scale.rounding_constant.push_back(rounding_constant(1.0));

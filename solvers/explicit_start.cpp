@@ -112,6 +112,7 @@ std::vector<Rolling> rolling_on(const Analysis& analysis, const Step& step, cons
   std::vector<Rolling> all;
   if (rotation.kind != InitialVelocity::Kind::rotation || rotation.angular_speed == 0.0) return all;
   for (const auto pair : step.active_contact_pairs) {
+    if (analysis.contacts[pair].master_body() < 0) continue;
     const Rolling rolling{passing_speed(analysis, step, analysis.contacts[pair].master_body(), rotation, axis),
                           radii_of(analysis, pair, rotation, axis)};
     if (rolling.speed > 0.0 && rolling.radii.loaded < rolling.radii.free) all.push_back(rolling);

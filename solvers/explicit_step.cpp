@@ -274,6 +274,10 @@ void ExplicitStep::rest_failed_elements() {
   });
 }
 
+void ExplicitStep::add_mesh_contact() {
+  timers.measure(Phase::contact, [&] { contact_.add_mesh_forces(analysis_, force_.data()); });
+}
+
 void ExplicitStep::add_soft_contact() {
   timers.measure(Phase::contact, [&] { contact_.add_forces(analysis_, force_.data()); });
 }

@@ -52,6 +52,7 @@ class ExplicitStep {
   void scale_masses();
   /// Elements that failed in this cycle have no force from the next on.
   void rest_failed_elements();
+  void add_mesh_contact();
   void add_soft_contact();
   void finish_halo();
   void add_damping();

@@ -67,6 +67,7 @@ RigidDynamics::Uses ExplicitStep::uses_of_nodes() const {
     for (std::int32_t element = 0; element < group->size(); ++element)
       if (group->acts(element)) push(group->nodes(element));
   for (const auto& contact : analysis_.contacts) push(contact.nodes());
+  for (const auto& contact : analysis_.mesh_contacts) push(contact.all_nodes());
   const auto& inertia = analysis_.inertia;
   for (std::size_t node = 0; node < none.size(); ++node)
     if (inertia.damping[node] > 0.0 || (node < inertia.rotary_damping.size() && inertia.rotary_damping[node] > 0.0)) uses.pushed[node] = true;

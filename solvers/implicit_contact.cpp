@@ -41,12 +41,13 @@ void ImplicitSystem::follow_faces() {
   bool changed = false;
   for (const auto pair : step_.active_contact_pairs) {
     auto& contact = analysis_.mesh_contacts[pair];
-    contact.locate(analysis_.current.position.data());
+    contact.follow(analysis_.current.position.data());
     for (std::int32_t place = 0; place < contact.size(); ++place) {
+      if (!contact.owned(place)) continue;
       const auto now = contact.pairing(place, analysis_.current.position.data(), start_contact_[pair][place]);
       if (now.face < 0 || now == pairings_[pair][place]) continue;
       pairings_[pair][place] = now;
-      changed = changed || contact.owned(place);
+      changed = true;
     }
   }
   if (!has_contact() || !analysis_.communicator.any(changed)) return;
@@ -124,12 +125,12 @@ void ImplicitSystem::add_contact_point(std::int32_t pair, std::int32_t point, bo
 
 void ImplicitSystem::add_contact_place(std::int32_t pair, std::int32_t place, bool sticks) {
   const auto& contact = analysis_.mesh_contacts[pair];
+  if (!contact.owned(place)) return;
   auto& slips = slips_[pair][place];
   auto& tangent = mesh_tangent_;
   contact.linearize(place, pairings_[pair][place], analysis_.current.position.data(), start_contact_[pair][place],
                     trial_contact_[pair][place], sticks, slips.before, tangent);
   slips.now = tangent.slip;
-  if (!contact.owned(place)) return;
   auto& sum = dynamics_ ? contact_force_ : residual_;
   for (std::size_t i = 0; i < tangent.force.size(); ++i)
     sum[map_.slot(tangent.nodes[i / 3], static_cast<int>(i % 3))] -= tangent.force[i];

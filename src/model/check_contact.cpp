@@ -49,21 +49,6 @@ void check_interaction(const Model& model, const ContactPair& pair, Errors& erro
                                                    model.surfaces[pair.master].name));
 }
 
-/// Explicit steps know rigid masters only.
-void check_procedure(const Model& model, const Step& step, Errors& errors) {
-  if (!std::holds_alternative<ExplicitProcedure>(step.procedure)) return;
-  for (const auto row : step.active_contact_pairs) {
-    const auto& pair = model.contact_pairs[row];
-    const auto& master = model.surfaces[pair.master];
-    if (!deforms(model, master)) continue;
-    errors.emplace_back(pair.location,
-                        fmt::format("*CONTACT PAIR: step {} is explicit, and contact with the deformable master {} is computed in implicit "
-                                    "steps only; take the pair out there with *MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE, or cover the "
-                                    "master with R3D3 or R3D4 of a rigid body",
-                                    step.name, master.name));
-  }
-}
-
 }  // namespace
 
 Errors check_contact(const Model& model) {
@@ -73,7 +58,6 @@ Errors check_contact(const Model& model) {
     check_slave_nodes(model, pair, errors);
     check_interaction(model, pair, errors);
   }
-  for (const auto& step : model.steps) check_procedure(model, step, errors);
   return errors;
 }
 

@@ -217,7 +217,88 @@ def rods(runner):
     assert np.abs(total - total[0]).max() < 1e-2 * abs(total[0]), "energy moves by %g of %g" % (np.ptp(total), total[0])
 
 
-CASES = {"patch": patch, "free_body": free_body, "sliding": sliding, "restarted": restarted, "standing_together": standing_together, "rods": rods}
+def explicit_rods(runner):
+    """The rods again, with equal and with unlike faces at either end, explicit: the first gives all of its speed to the second, less
+    what stays behind as ringing; no energy is lost."""
+    young, density, length, speed = 200e9, 7800.0, 1.0, 10.0
+    wave = math.sqrt(young / density)
+    for name, kind, across in (("faces", "SURFACE TO SURFACE", (1, 1)), ("nodes", "NODE TO SURFACE", (1, 2))):
+        deck = Deck()
+        for first, start, n in ((1, 0.0, across[0]), (10001, length, across[1])):
+            rod = brick((40, n, n), (length, 0.1, 0.1), "C3D8R", lambda x, y, z: (x + start, y, z), first, first)
+            deck.nodes.update(rod.nodes)
+            deck.elements.setdefault("C3D8R", []).extend(rod.elements["C3D8R"])
+        deck.sets["ALL_NODES"] = list(deck.nodes)
+        deck.sets["FIRST"] = [n for n in deck.nodes if n < 10000]
+        deck.sets["SECOND"] = [n for n in deck.nodes if n > 10000]
+        deck.add("*SOLID SECTION, ELSET=ALL, MATERIAL=M\n*MATERIAL, NAME=M\n*ELASTIC\n%g, 0.\n*DENSITY\n%g" % (young, density))
+        ends = [10001 + 40 * i for i in range(across[1] ** 2)]
+        deck.add("*SURFACE, NAME=GROUND\n40, S4\n*SURFACE, NAME=FOOT\n%s" % "\n".join("%d, S6" % e for e in ends))
+        pair(deck, kind)
+        deck.add("*INITIAL CONDITIONS, TYPE=VELOCITY\nFIRST, 1, %g" % speed)
+        duration = 2.0 * length / wave
+        deck.add("*STEP, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, %g\n*BULK VISCOSITY\n0., 0.\n*BOUNDARY\nALL_NODES, 2, 3\n%s*END STEP" % (
+            1.3 * duration, OUTPUT.replace("U, RF", "U, V").replace("FIELD, FREQUENCY=1,", "FIELD, NUMBER INTERVAL=2,")))
+        results = [runner.run("explicit_" + name, deck, ranks) for ranks in (1, 2, 3)]
+        force, time = -history(results[0], "CFN")[:, 0], history(results[0], "time")
+        middle = np.abs(force[(time > 0.2 * duration) & (time < 0.8 * duration)]).mean() / 0.01
+        close(middle, 0.5 * density * wave * speed, 2e-2, name + ": stress between the rods")
+        second = np.mean([results[0].at(n, "V")[0] for n in deck.sets["SECOND"]])
+        close(second, speed, 2e-2, name + ": speed of the second rod")
+        total = energy(results[0], "ETOTAL")
+        assert np.abs(total - total[0]).max() < 2e-3 * total[0], "energy moves by %g of %g" % (np.ptp(total), total[0])
+        for other in results[1:]:
+            for variable in ("U", "V"):
+                assert np.array_equal(results[0].node(variable), other.node(variable)), "bits differ between ranks in " + variable
+
+
+def at_rest(runner):
+    """A block pressed and drawn aslant in statics goes on in an explicit step with all that held it: nothing moves."""
+    for name, kind, interaction in (("nodes", "NODE TO SURFACE", "*FRICTION\n0.3"), ("faces", "SURFACE TO SURFACE", "*FRICTION\n0.3"),
+                                    ("soft", "SURFACE TO SURFACE", "*FRICTION\n0.3\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n2e4")):
+        deck = blocks(3, 2, at=(0.3, 0.4), size=(3.0, 1.2), kinds=("C3D8R", "C3D8R"), poisson=0.3)
+        pair(deck, kind, interaction)
+        static(deck, "*BOUNDARY\nBASE, 1, 3\nTOP, 2, 2\nTOP, 3, 3, -0.02\nTOP, 1, 1, 0.002\n", "0.5, 1.")
+        deck.add("*STEP, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, 0.01\n*BULK VISCOSITY\n0., 0.\n%s*END STEP" % OUTPUT.replace(
+            "U, RF", "U, V").replace("FIELD, FREQUENCY=1,", "FIELD, NUMBER INTERVAL=2,"))
+        results = [runner.run("rest_" + name, deck, ranks) for ranks in (1, 2, 3)]
+        before, after = history(results[0], "CFN", 1)[-1][2], history(results[0], "CFN", 2)[:, 2]
+        assert np.abs(after - before).max() < 1e-3 * before, "normal force moves from %g to %g ... %g" % (before, after.min(), after.max())
+        held, kept = history(results[0], "CFT", 1)[-1][0], history(results[0], "CFT", 2)[:, 0]
+        assert np.abs(kept - held).max() < 1e-2 * abs(held), "friction moves from %g to %g ... %g" % (held, kept.min(), kept.max())
+        kinetic, inner = energy(results[0], "ALLKE", 2), energy(results[0], "ALLIE", 2)
+        print("%s: kinetic energy %.2e of the inner" % (name, kinetic.max() / inner.max()))
+        assert kinetic.max() < 1e-6 * inner.max()
+        for other in results[1:]:  # the same state but for the order of elimination
+            assert np.abs(results[0].node("U", 2) - other.node("U", 2)).max() < 1e-9
+
+
+def skid(runner):
+    """VERIFY.md, SLIDE: a block of speed v comes to rest on a level base after v^2 / (2 mu g), and all its energy is friction's. It passes
+    over the faces of the base, first pressed down by its weight in statics."""
+    coefficient, gravity, speed = 0.3, 9.81, 3.0
+    deck = blocks(4, 2, at=(0.2, 1.5), size=(4.0, 1.0), kinds=("C3D8R", "C3D8R"))
+    pair(deck, "NODE TO SURFACE", "*FRICTION\n%g" % coefficient)
+    deck.sets["BLOCK_NODES"] = [n for n in deck.nodes if n > 10000]
+    held = "*BOUNDARY\nBASE, 1, 3\n"
+    static(deck, held + "TOP, 1, 2\n*DLOAD\n, GRAV, %g, 0., 0., -1.\n" % gravity)
+    deck.add("*INITIAL CONDITIONS, TYPE=VELOCITY\nBLOCK_NODES, 1, %g" % speed)
+    duration = 1.3 * speed / (coefficient * gravity)
+    deck.add("*STEP, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, %g\n*BOUNDARY, OP=NEW\nBASE, 1, 3\n%s*END STEP" % (
+        duration, OUTPUT.replace("U, RF", "U, V").replace("FREQUENCY=1", "NUMBER INTERVAL=20")))
+    text = deck.text.pop(-2)
+    deck.text.insert(deck.text.index(next(t for t in deck.text if t.startswith("*STEP"))), text)
+    results = [runner.run("skid", deck, ranks) for ranks in (1, 2)]
+    path = np.mean([results[0].at(n, "U", 2)[0] for n in deck.sets["BLOCK_NODES"]])
+    close(path, speed ** 2 / (2.0 * coefficient * gravity), 1e-2, "way to rest")
+    kinetic = energy(results[0], "ALLKE", 2)
+    close(energy(results[0], "ALLFD", 2)[-1], kinetic[0], 1e-2, "heat")
+    total = energy(results[0], "ETOTAL", 2)
+    assert np.abs(total - total[0]).max() < 5e-3 * kinetic[0], "energy moves by %g of %g" % (np.ptp(total), kinetic[0])
+
+
+CASES = {"patch": patch, "free_body": free_body, "sliding": sliding, "restarted": restarted, "standing_together": standing_together, "rods": rods, "explicit_rods": explicit_rods,
+         "at_rest": at_rest, "skid": skid}
 
 if __name__ == "__main__":
     case, program, folder = sys.argv[1:4]

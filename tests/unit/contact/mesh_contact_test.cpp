@@ -39,7 +39,7 @@ struct MeshPair {
   }
   void place(const Point& at) {
     for (int i = 0; i < 3; ++i) position[4 * (model.nodes.size() - 1) + i] = at[i];
-    contact.locate(position.data());
+    contact.follow(position.data());
   }
   void start_at(const Point& at) {
     place(at);
@@ -47,7 +47,7 @@ struct MeshPair {
   }
   MeshTangent tangent() {
     MeshTangent result;
-    contact.locate(position.data());
+    contact.follow(position.data());
     const auto pairing = contact.pairing(0, position.data(), start[0]);
     now = start;
     contact.linearize(0, pairing, position.data(), start[0], now[0], false, {}, result);
