@@ -1,5 +1,7 @@
 #include "mesh_contact.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -7,6 +9,7 @@
 #include "contact_resultant.hpp"
 #include "elements/slave_places.hpp"
 #include "elements/surface_nodes.hpp"
+#include "model/diagnostics.hpp"
 #include "slave_surface.hpp"
 
 namespace balocco {
@@ -26,10 +29,19 @@ std::vector<double> stiffness_per_area(const Model& model, const ContactPair& pa
   return density;
 }
 
+void refuse_turned_surfaces(const Model& model, const ContactPair& pair) {
+  const auto &slave = model.surfaces[pair.slave], &master = model.surfaces[pair.master];
+  if (!faces_away(model, slave, master)) return;
+  throw InputError(fmt::format("{}: error: *CONTACT PAIR: the surfaces {} and {} face the same way: none of the faces of {} looks towards the "
+                               "nearest of {}; name the other side of the elements of one of them (SPOS or SNEG, another of S1 to S6)",
+                               model.where(pair.location), slave.name, master.name, slave.name, master.name));
+}
+
 }  // namespace
 
 MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& domain) {
   const ContactPair& pair = model.contact_pairs[row];
+  refuse_turned_surfaces(model, pair);
   const auto nodes = surface_nodes(model, model.surfaces[pair.slave]);
   if (nodes.empty() || domain.local_node[nodes.front()] >= 0) faces_ = MasterFaces(model, model.surfaces[pair.master], domain.local_node);
   std::vector<double> density;
@@ -125,7 +137,14 @@ double MeshContact::spring_energy(const Place& place, const ContactPoint& state,
 
 void MeshContact::open(const FacePlace& foot, ContactPoint& point) const {
   point.multiplier = point.closed = 0.0;
+  point.stiff_friction = {};
   point.anchor = {static_cast<double>(foot.face), foot.xi, foot.eta};
+}
+
+void MeshContact::slide(const double* position, const Vector3<double>& slip, const Vector3<double>& where, const FacePlace& foot,
+                        ContactPoint& point) const {
+  point.stiff_friction = (Vector3<double>{point.stiff_friction} + slip).component;
+  set_anchor(position, where, foot, point);
 }
 
 /// The anchor goes to the place of the surface that is nearest to `where`.
@@ -185,10 +204,14 @@ MeshContact::Output MeshContact::output(std::int32_t index, const double* positi
   const auto law = parameters(place, state);
   ContactForce<double> contact;
   contact.pressure = spring->force;
+  output.closed = true;
+  output.normal = foot.normal;
   if (has_anchor(state) && contact.pressure > 0.0) {
     auto scratch = state;
-    const auto stretch = output.at - anchor_of(position, state);
-    add_tangential_spring(law, stretch - dot(stretch, foot.normal) * foot.normal, scratch, contact);
+    auto stretch = output.at - anchor_of(position, state);
+    stretch = stretch - dot(stretch, foot.normal) * foot.normal;
+    add_tangential_spring(law, stretch, scratch, contact);
+    output.displacement = stretch + Vector3<double>{state.stiff_friction};
   }
   output.normal_force = contact.pressure * foot.normal;
   output.friction_force = contact.friction;

@@ -97,6 +97,8 @@ class MeshContact {
     double gap = 0.0, pressure = 0.0, shear = 0.0, slip = 0.0;
     Vector3<double> normal_force{}, friction_force{}, at{};
     double spring_energy = 0.0;
+    Vector3<double> normal{}, displacement{};  // across it, of the slave relative to the master since the place closed
+    bool closed = false;
   };
   Output output(std::int32_t place, const double* position, const ContactPoint& state) const;
   /// Takes the forces of a place from those that hold its nodes, 4 values a node.
@@ -130,6 +132,8 @@ class MeshContact {
   void linearize_on(std::int32_t place, const FacePlace& foot, const NormalSpring& spring, const double* position, const ContactPoint& old, ContactPoint& updated,
                     bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const;
   void advance(const double* position, const Place& place, ContactPoint& point, double* force) const;
+  /// A place gives way by `slip`: its anchor goes with it.
+  void slide(const double* position, const Vector3<double>& slip, const Vector3<double>& where, const FacePlace& foot, ContactPoint& point) const;
   void set_anchor(const double* position, const Vector3<double>& where, const FacePlace& otherwise, ContactPoint& point) const;
   void open(const FacePlace& foot, ContactPoint& point) const;
 

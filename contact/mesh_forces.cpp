@@ -56,7 +56,7 @@ void MeshContact::advance(const double* position, const Place& place, ContactPoi
     auto stretch = where - anchor_of(position, point);
     stretch = stretch - dot(stretch, foot.normal) * foot.normal;
     const double kept = add_tangential_spring(parameters(place, point), stretch, point, contact);
-    if (kept < 1.0) set_anchor(position, where - foot.distance * foot.normal - kept * stretch, foot, point);
+    if (kept < 1.0) slide(position, contact.slip, where - foot.distance * foot.normal - kept * stretch, foot, point);
   } else {
     point.anchor = {static_cast<double>(foot.face), foot.xi, foot.eta};
   }

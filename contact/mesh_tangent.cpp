@@ -201,7 +201,7 @@ void MeshContact::linearize_on(std::int32_t index, const FacePlace& found, const
     if (kept < 1.0) {
       Vector3<double> where;
       for (int i = 0; i < 3; ++i) where[i] = moving.foot[i].value - kept * stretch[i].value;
-      set_anchor(position, where, found, updated);
+      slide(position, contact.slip, where, found, updated);
     }
     if (sticks || dot(last_slip, tangent.slip) < 0.0) stick(moving, contact);
   } else if (tangent.closed) {

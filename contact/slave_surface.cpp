@@ -197,4 +197,19 @@ bool faces_away(const Model& model, const Surface& slave, const MasterSurface& m
   });
 }
 
+bool faces_away(const Model& model, const Surface& slave, const Surface& master) {
+  std::vector<FaceGeometry> faces;
+  for (const auto& face : master.faces) faces.push_back(face_geometry(model, face_nodes(model, face)));
+  if (slave.faces.empty() || faces.empty()) return false;
+  return std::ranges::all_of(slave.faces, [&](const FaceRef& face) {
+    const FaceGeometry geometry = face_geometry(model, face_nodes(model, face));
+    const auto distance = [&](const FaceGeometry& other) {
+      const auto apart = other.centroid - geometry.centroid;
+      return dot(apart, apart);
+    };
+    const auto nearest = std::ranges::min_element(faces, {}, distance);
+    return dot(nearest->area_vector, geometry.area_vector) > 1e-6 * nearest->area * geometry.area;
+  });
+}
+
 }  // namespace balocco

@@ -13,6 +13,7 @@
 #include "elements/solids/solid_reference.hpp"
 #include "gather.hpp"
 #include "model/diagnostics.hpp"
+#include "print_contact.hpp"
 #include "print_section.hpp"
 #include "print_text.hpp"
 
@@ -95,7 +96,7 @@ PrintTables::Request PrintTables::plan(const ResultSource& source, const PrintOu
   const double duration = model_.steps[step_].duration();
   const auto schedule = output.time_points.empty() ? Schedule::every_increments(output.frequency, duration)
                                                    : Schedule::at(output.time_points, duration);
-  if (output.kind == PrintOutput::Kind::section) return {&output, {}, schedule};
+  if (output.kind == PrintOutput::Kind::section || output.kind == PrintOutput::Kind::contact) return {&output, {}, schedule};
   return {&output, output.kind == PrintOutput::Kind::nodes ? nodes_of(output) : elements_of(source, output), schedule};
 }
 
@@ -345,6 +346,7 @@ void PrintTables::advance(const ResultSource& source, const Progress& progress) 
     if (request.output->kind == PrintOutput::Kind::elements) text += element_tables(source, request, time);
     if (request.output->kind == PrintOutput::Kind::section)
       text += section_table(model_, communicator_, domain_, source, *request.output, time);
+    if (request.output->kind == PrintOutput::Kind::contact) text += contact_tables(model_, communicator_, source, *request.output, time);
   }
   write(text);
 }

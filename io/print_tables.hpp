@@ -1,4 +1,4 @@
-// JOB.dat: the tables that *NODE PRINT, *EL PRINT and *SECTION PRINT ask for, and those of modes, laid out as CalculiX
+// JOB.dat: the tables that *NODE PRINT, *EL PRINT, *SECTION PRINT and *CONTACT PRINT ask for, and those of modes, laid out as CalculiX
 // does. Flushed with every increment; a restart cuts off what is later than the checkpoint.
 #pragma once
 

@@ -108,6 +108,7 @@ class Analysis : public ResultSource {
   void internal_force(std::size_t group, std::int32_t element, std::span<double> force) const;
   EnergyBalance energies() const override;
   ContactResultant contact(std::int32_t pair) const override;
+  std::vector<ContactPlace> contact_places(std::int32_t pair) const override;
 
  private:
   struct SampledEnergies {

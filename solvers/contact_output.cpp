@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 
+#include "local_places.hpp"
 #include "output_instant.hpp"
 
 namespace balocco {
@@ -108,6 +109,30 @@ void contact_normal_force(const Analysis& analysis, std::span<double> values) {
 
 void contact_shear_force(const Analysis& analysis, std::span<double> values) {
   contact_vector(analysis, values, [](const auto& output) { return output.friction_force; });
+}
+
+std::vector<ContactPlace> Analysis::contact_places(std::int32_t pair) const {
+  const auto& contact = mesh_contacts[pair];
+  if (contact.size() == 0) return {};
+  std::vector<ContactPlace> places;
+  const auto local = local_slave_places(model, pair, domain);
+  for (std::int32_t place = 0; place < contact.size(); ++place) {
+    const auto at = contact.output(place, current.position.data(), current.contact[pair][place]);
+    if (!contact.owned(place) || !at.closed) continue;
+    constexpr double along_x = 0.998;
+    const Vector3<double> axis = std::abs(at.normal[0]) > along_x ? Vector3<double>{0.0, 0.0, 1.0} : Vector3<double>{1.0, 0.0, 0.0};
+    auto first = axis - dot(axis, at.normal) * at.normal;
+    first = (1.0 / std::sqrt(dot(first, first))) * first;
+    const auto second = cross(at.normal, first);
+    const auto holding = (-1.0 / contact.area(place)) * at.friction_force;
+    places.push_back({.row = local[place].row,
+                      .gap = at.gap,
+                      .pressure = at.pressure,
+                      .energy = at.spring_energy,
+                      .displacement = {dot(at.displacement, first), dot(at.displacement, second)},
+                      .shear = {dot(holding, first), dot(holding, second)}});
+  }
+  return places;
 }
 
 }  // namespace balocco

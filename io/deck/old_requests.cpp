@@ -17,7 +17,7 @@ KeywordRule old_request(const char* keyword) {
 }
 
 const RegisterKeyword file_format{old_request("FILE FORMAT")}, node_file{old_request("NODE FILE")}, el_file{old_request("EL FILE")},
-    monitor{old_request("MONITOR")}, contact_print{old_request("CONTACT PRINT")},
+    monitor{old_request("MONITOR")},
     contact_file{old_request("CONTACT FILE")}, energy_print{old_request("ENERGY PRINT")},
     energy_file{old_request("ENERGY FILE")}, file_output{old_request("FILE OUTPUT")}, print{old_request("PRINT")}, diagnostics{old_request("DIAGNOSTICS")};
 

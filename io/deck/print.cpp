@@ -1,4 +1,4 @@
-// *NODE PRINT *EL PRINT *SECTION PRINT: tables in JOB.dat.
+// *NODE PRINT *EL PRINT *SECTION PRINT *CONTACT PRINT: tables in JOB.dat.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -129,6 +129,28 @@ void read_section_print(Builder& builder, const Block& block) {
   read_variables(builder, block, printed_of_sections, *output);
 }
 
+/// CalculiX's and Abaqus's words of what is printed of contact.
+std::string printed_of_contact(const std::string& word) {
+  if (word == "CDISP" || word == "CDIS") return "CDIS";
+  if (word == "CSTRESS" || word == "CSTR") return "CSTR";
+  return word == "CELS" ? "CELS" : "";
+}
+
+void read_contact_print(Builder& builder, const Block& block) {
+  auto output = begin_print(builder, block, PrintOutput::Kind::contact);
+  if (!output || !read_set(builder, block, "NSET", builder.node_sets, builder.model.node_sets, *output)) return;
+  each_variable(builder, block, [&](const std::string& word, Row&) {
+    if (const auto variable = printed_of_contact(word); !variable.empty())
+      add(output->variables, variable);
+    else
+      builder.warning(block, block.location, fmt::format("{} is not printed; known: CDIS, CSTR, CELS", word));
+  });
+  const auto& pairs = builder.model.contact_pairs;
+  const bool any = std::ranges::any_of(pairs, [&](const auto& pair) { return deforms(builder.model, builder.model.surfaces[pair.master]); });
+  if (!any && !pairs.empty()) builder.warning(block, block.location, "tells of pairs with deformable masters, and there are none; use *OUTPUT");
+  if (!output->variables.empty()) builder.model.steps.back().print_outputs.push_back(std::move(*output));
+}
+
 const ParameterRule totals = choice("TOTALS", {"YES", "NO", "ONLY"}), global = choice("GLOBAL", {"YES", "NO"});
 const RegisterKeyword node_print{{"NODE PRINT",
                                   Phase::history,
@@ -140,6 +162,12 @@ const RegisterKeyword section_print{{"SECTION PRINT",
                                      Place::step,
                                      {required(name("SURFACE")), required(name("NAME")), integer("FREQUENCY"), name("TIME POINTS")},
                                      read_section_print}};
+const RegisterKeyword contact_print{{"CONTACT PRINT",
+                                     Phase::history,
+                                     Place::step,
+                                     {name("NSET"), integer("FREQUENCY"), name("TIME POINTS"), foreign("TOTALS"), foreign("SUMMARY"),
+                                      foreign("SLAVE"), foreign("MASTER")},
+                                     read_contact_print}};
 const RegisterKeyword element_print{{"EL PRINT",
                                      Phase::history,
                                      Place::step,

@@ -165,7 +165,8 @@ const RegisterKeyword nset{
     {"NSET",
      Phase::nodes,
      Place::anywhere,
-     {required(name("NSET")), flag("GENERATE"), flag("UNSORTED"), flag("INTERNAL"), name("INSTANCE"), name("ELSET")},
+     {required(name("NSET")), flag("GENERATE"), flag("UNSORTED"), flag("INTERNAL"), name("INSTANCE"), name("ELSET"),
+      foreign("FREQUENCY")},
      read_node_set}};
 const RegisterKeyword elset{
     {"ELSET",

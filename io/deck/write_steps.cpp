@@ -273,7 +273,7 @@ void Writer::history_output(const HistoryOutput& output) {
 }
 
 void Writer::print_outputs(const Step& step, std::size_t row) {
-  bool of_nodes = false, of_elements = false;
+  bool of_nodes = false, of_elements = false, of_contact = model_.contact_pairs.empty();
   for (const auto& output : step.print_outputs) {
     const auto number = &output - step.print_outputs.data();
     const auto times = output.time_points.empty()
@@ -281,6 +281,12 @@ void Writer::print_outputs(const Step& step, std::size_t row) {
                            : time_points(output.time_points, fmt::format("PRINTS-{}-{}", row + 1, number + 1));
     if (output.kind == PrintOutput::Kind::section) {
       line("*SECTION PRINT, SURFACE={}, NAME={}{}", quoted(model_.surfaces[output.set].name), quoted(output.section_name), times);
+      values(output.variables);
+      continue;
+    }
+    if (output.kind == PrintOutput::Kind::contact) {
+      of_contact = true;
+      line("*CONTACT PRINT{}{}", output.set >= 0 ? ", NSET=" + quoted(model_.node_sets[output.set].name) : "", times);
       values(output.variables);
       continue;
     }
@@ -295,6 +301,7 @@ void Writer::print_outputs(const Step& step, std::size_t row) {
   }
   if (!of_nodes) line("*NODE PRINT, FREQUENCY=0");
   if (!of_elements) line("*EL PRINT, FREQUENCY=0");
+  if (!of_contact) line("*CONTACT PRINT, FREQUENCY=0");
 }
 
 void Writer::checkpoints(std::size_t row) {

@@ -47,6 +47,14 @@ struct ContactResultant {
   double greatest_penetration = 0.0;
 };
 
+/// A place of a pair with a deformable master that is closed. Two directions across the normal n: along the global x axis (z, where n is
+/// along x), and n x that.
+struct ContactPlace {
+  std::int64_t row = -1;  // elements/slave_places.hpp
+  double gap = 0.0, pressure = 0.0, energy = 0.0;
+  std::array<double, 2> displacement{}, shear{};  // of the slave relative to the master since it closed, and the stress that holds it
+};
+
 /// What a running analysis can be asked for. Functions marked collective must be called by every rank.
 class ResultSource {
  public:
@@ -68,6 +76,8 @@ class ResultSource {
   }
   virtual EnergyBalance energies() const = 0;                               // collective
   virtual ContactResultant contact(std::int32_t pair) const = 0;            // collective
+  /// Of the places that this rank owns; none where the master is rigid.
+  virtual std::vector<ContactPlace> contact_places(std::int32_t) const { return {}; }
 };
 
 /// Where a procedure stands after an increment.

@@ -37,7 +37,8 @@ struct ContactPoint {
   double frictional_dissipation = 0.0;
   double stiff_spring = 0.0;  // explicit: normal stiffness that `multiplier` goes with; 0: that of the pair
   double stiff_force = 0.0;   // and its force at the last instant, which where the point is does not tell
-  Point stiff_friction{};     // and that of friction, on the slave, in the frame of the master body
+  Point stiff_friction{};     // and that of friction, on the slave, in the frame of the master body; of a deformable master: by how
+                              // much the place has slipped, as a vector
   double implicit_spring = 0.0;  // implicit: stiffness that `multiplier` and `anchor` go with; 0: as for `stiff_spring`
 };
 

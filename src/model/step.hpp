@@ -123,9 +123,9 @@ struct HistoryOutput {
 
 /// *NODE PRINT, *EL PRINT, *SECTION PRINT: tables in JOB.dat, each of one set and one variable.
 struct PrintOutput {
-  enum class Kind { nodes, elements, section } kind = Kind::nodes;
+  enum class Kind { nodes, elements, section, contact } kind = Kind::nodes;
   enum class Totals { none, also, only };  // sums over the set: not printed, behind the table, in its place
-  std::int32_t set = -1;        // row of Model::node_sets, element_sets or surfaces
+  std::int32_t set = -1;        // row of Model::node_sets (also of contact), element_sets or surfaces
   std::string set_name;         // as the deck says it
   std::string section_name;     // *SECTION PRINT, NAME=
   std::vector<std::string> variables;

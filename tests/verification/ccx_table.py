@@ -45,7 +45,6 @@ NOTES |= {
                 "own ends by up to 5 %",
     "contact6": "the slave is a set of nodes: 1 is the area of each here, as in Abaqus; CalculiX takes 0.0075, a share of all faces around",
     "punch2": "the slave reaches beyond the master: CalculiX cuts its faces at the edge, here their points count whole",
-    "friction1": "runs; what it prints, CDISP and CSTR of *CONTACT PRINT, has no tables here",
     "contactenergy": "the energies of CalculiX's own 28 contact springs are printed; U, RF and the energies of elements agree",
 }
 CONTROLS = "*SECTION CONTROLS, NAME=PLAIN-BRICK, DILATATION=POINTWISE\n"

@@ -82,6 +82,33 @@ def patch(runner):
         assert np.ptp(pressure) < 1e-8 * pressure[0] and abs(pressure[0] + stress.mean()) < 1e-5 * pressure[0], pressure
 
 
+def printed(runner):
+    """*CONTACT PRINT: a block pressed and then pushed along by more than it sticks, on two ranks: CSTR is the stress of the field output, CDIS
+    what the slave has moved over the master, and CELS sums to what the springs hold."""
+    for kind in ("NODE TO SURFACE", "SURFACE TO SURFACE"):
+        deck = blocks(2, 2, at=(0.4, 0.1), size=(2.0, 1.0))
+        pair(deck, kind, "*FRICTION\n0.2\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n2e4")
+        held = "*BOUNDARY\nBASE, 1, 3\nTOP, 2, 2\nTOP, 3, 3, -0.01\nTOP, 1, 1, %g\nSOLE, 1, 1, %g\n*CONTACT PRINT\nCDISP, CSTRESS, CELS\n"
+        static(deck, held % (0.0, 0.0))
+        static(deck, held % (0.3, 0.3), "0.25, 1.")
+        results = runner.run("printed_" + kind.split()[0].lower(), deck, 2)
+        text = open(results.file.filename[:-3] + ".dat").read().split("relative contact displacement")[-1]
+        tables = [[[float(v) for v in line.split()] for line in part.splitlines() if line[:10].strip().isdigit()]
+                  for part in text.replace("contact spring energy", "contact stress").split("contact stress")]
+        places = 9 if kind.startswith("NODE") else 16
+        assert [len(table) for table in tables] == 3 * [places], [len(table) for table in tables]
+        moved, stress, stored = (np.array(table) for table in tables)
+        base = np.array([results.at(n, "U", 2)[0] for n in deck.sets["FACE"]])
+        assert np.abs(moved[:, -2] - 0.3).max() < np.abs(base).max() + 1e-6, moved
+        area = 1.0 if kind.startswith("SURF") else None
+        normal, friction = history(results, "CFN", 2)[-1], history(results, "CFT", 2)[-1]
+        close(np.abs(stress[:, -2] / stress[:, -3]).mean(), 0.2, 1e-6, "shear over pressure")
+        if area:
+            close(stress[:, -3].mean(), normal[2], 1e-5, "mean pressure")
+            close(stress[:, -2].mean(), -friction[0], 1e-5, "mean shear")
+        assert np.all(stored[:, -1] > 0.0)
+
+
 def free_body(runner):
     """A block that only touches is put under a load: nothing but contact carries it. Forces balance to round-off, on curved and
     slanting faces too: the whole stands aslant."""
@@ -297,7 +324,7 @@ def skid(runner):
     assert np.abs(total - total[0]).max() < 5e-3 * kinetic[0], "energy moves by %g of %g" % (np.ptp(total), kinetic[0])
 
 
-CASES = {"patch": patch, "free_body": free_body, "sliding": sliding, "restarted": restarted, "standing_together": standing_together, "rods": rods, "explicit_rods": explicit_rods,
+CASES = {"patch": patch, "printed": printed, "free_body": free_body, "sliding": sliding, "restarted": restarted, "standing_together": standing_together, "rods": rods, "explicit_rods": explicit_rods,
          "at_rest": at_rest, "skid": skid}
 
 if __name__ == "__main__":

@@ -6,6 +6,7 @@
 #include <random>
 
 #include "contact_model.hpp"
+#include "model/diagnostics.hpp"
 
 namespace balocco {
 namespace {
@@ -74,6 +75,17 @@ TEST(MeshContact, PushesAsTheSlopeSaysAndBothSidesAlike) {
     EXPECT_NEAR(force[k], 0.0, 1e-13);
     EXPECT_NEAR(moment[k], 0.0, 1e-11);
   }
+}
+
+TEST(MeshContact, SurfacesThatFaceTheSameWayAreRefused) {
+  Model model = plate_on_road(2);
+  model.rigid_bodies.clear();
+  Surface above = model.surfaces[0];
+  for (auto& face : above.faces) face.face = 1;
+  model.surfaces[1] = above;  // the two sides of one plate look away from each other
+  EXPECT_NO_THROW(MeshContact(model, 0, whole(model)));
+  model.surfaces[1] = model.surfaces[0];
+  EXPECT_THROW(MeshContact(model, 0, whole(model)), InputError);
 }
 
 TEST(MeshContact, ReachesATenthOfAFaceBeyondTheEndOfTheSurface) {
