@@ -13,8 +13,12 @@ namespace {
 
 /// How far a face goes on beyond an edge at which the surface ends: a tenth of the face.
 constexpr double margin = 0.1;
+/// Distance, of the faces' edge, below which the direction from an edge or a corner is round-off.
+constexpr double no_direction = 1e-9;
 /// Rounding must not let a place over a common edge fall between two faces.
 constexpr double overlap = 1e-9;
+/// A face that covers more, large among small ones or torn by a run that diverges, is a candidate everywhere.
+constexpr double most_cells = 4096.0;
 
 double norm(const Vector3<double>& v) { return std::sqrt(dot(v, v)); }
 
@@ -66,7 +70,7 @@ MasterFaces::MasterFaces(const Model& model, const Surface& surface, std::span<c
     for (std::size_t i = 0; i < corners; ++i, ++edges)
       length += norm(Vector3<double>{model.nodes.coordinates[rows[(i + 1) % corners]]} - Vector3<double>{model.nodes.coordinates[rows[i]]});
   }
-  if (edges > 0) reach_ = 0.5 * length / static_cast<double>(edges);
+  if (edges > 0) edge_ = reach_ = length / static_cast<double>(edges);
   join_edges(last + 1);
 }
 
@@ -119,11 +123,21 @@ MasterFaces::Box MasterFaces::box_around(const double* position, const Face& fac
 }
 
 void MasterFaces::locate(const double* position) {
-  for (auto& [cell, faces] : cells_) faces.clear();
-  boxes_.clear();
+  cells_.clear();
+  everywhere_.clear();
+  radii_.assign(faces_.size(), 0.0);
   for (std::int32_t f = 0; f < size(); ++f) {
-    const auto& box = boxes_.emplace_back(box_around(position, faces_[f]));
+    constexpr double growth = 1.5;  // it may stretch, and bulge where it is quadratic
+    for (const auto node : faces_[f].nodes)
+      radii_[f] = std::max(radii_[f], growth * norm(place_of(position, node) - place_of(position, faces_[f].nodes.front())));
+    const auto box = box_around(position, faces_[f]);
     const auto low = cell_of(box.low), high = cell_of(box.high);
+    double cells = 1.0;
+    for (int i = 0; i < 3; ++i) cells *= 1.0 + static_cast<double>(high[i]) - static_cast<double>(low[i]);
+    if (!(cells <= most_cells)) {
+      everywhere_.push_back(f);
+      continue;
+    }
     for (auto x = low[0]; x <= high[0]; ++x)
       for (auto y = low[1]; y <= high[1]; ++y)
         for (auto z = low[2]; z <= high[2]; ++z) cells_[{x, y, z}].push_back(f);
@@ -211,8 +225,9 @@ void MasterFaces::foot_on_edge(const double* position, std::int32_t f, int edge,
   if (best.face >= 0 && length >= std::abs(best.distance)) return;
   best = {.face = f, .xi = from[0] + along * way[0], .eta = from[1] + along * way[1], .freedoms = corner < 0 ? 1 : 0};
   best.way[0] = way;
-  best.normal = mean_normal(position, best, edge, corner);
-  best.distance = dot(arm, best.normal) < 0.0 ? -length : length;
+  const auto mean = mean_normal(position, best, edge, corner);
+  best.distance = dot(arm, mean) < 0.0 ? -length : length;
+  best.normal = length > no_direction * edge_ ? (1.0 / best.distance) * arm : mean;
 }
 
 FacePlace MasterFaces::foot(const double* position, std::int32_t f, const Vector3<double>& place) const {
@@ -228,22 +243,32 @@ FacePlace MasterFaces::foot(const double* position, std::int32_t f, const Vector
   return best;
 }
 
+double MasterFaces::least_distance(const double* position, std::int32_t face, const Vector3<double>& place) const {
+  return norm(place - place_of(position, faces_[face].nodes.front())) - radii_[face];
+}
+
+/// The candidate that may be nearest is looked at first: most others then cannot be.
 FacePlace MasterFaces::nearest(const double* position, const Vector3<double>& place) const {
   FacePlace best;
   const auto found = cells_.find(cell_of(place));
-  if (found == cells_.end()) return best;
+  candidates_ = everywhere_;
+  if (found != cells_.end()) candidates_.insert(candidates_.end(), found->second.begin(), found->second.end());
+  if (candidates_.empty()) return best;
+  away_.resize(candidates_.size());
+  for (std::size_t i = 0; i < away_.size(); ++i) away_[i] = least_distance(position, candidates_[i], place);
+  const auto first = static_cast<std::size_t>(std::ranges::min_element(away_) - away_.begin());
   double least = reach_;
-  for (const auto f : found->second) {
-    const auto& box = boxes_[f];
-    bool inside = true;
-    for (int i = 0; i < 3; ++i) inside = inside && place[i] >= box.low[i] && place[i] <= box.high[i];
-    if (!inside) continue;
-    const auto here = foot(position, f, place);
-    if (here.face < 0 || std::abs(here.distance) > reach_) continue;
-    if (best.face >= 0 && std::abs(here.distance) >= least) continue;
-    least = std::abs(here.distance);
+  const auto look_at = [&](std::size_t i) {
+    if (!(away_[i] <= least)) return;
+    const auto here = foot(position, candidates_[i], place);
+    const double distance = std::abs(here.distance);
+    if (here.face < 0 || !(distance <= least) || (best.face >= 0 && distance == least && best.face < here.face)) return;
+    least = distance;
     best = here;
-  }
+  };
+  look_at(first);
+  for (std::size_t i = 0; i < candidates_.size(); ++i)
+    if (i != first) look_at(i);
   return best;
 }
 

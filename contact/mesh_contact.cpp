@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <numeric>
 
 #include "contact_resultant.hpp"
 #include "elements/slave_places.hpp"
@@ -27,6 +28,24 @@ std::vector<double> stiffness_per_area(const Model& model, const ContactPair& pa
   std::vector<double> density(static_cast<std::size_t>(model.nodes.size()), 0.0);
   for (std::size_t i = 0; i < slave.rows.size(); ++i) density[slave.rows[i]] = slave.stiffness[i] / slave.area[i];
   return density;
+}
+
+/// Squares of the distance from each node to the nearest other one, in the order of `rows`.
+std::vector<double> nearest_squares(const Model& model, const std::vector<std::int32_t>& rows) {
+  std::vector<std::size_t> order(rows.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto at = [&](std::size_t i) { return model.nodes.coordinates[rows[order[i]]]; };
+  std::ranges::sort(order, {}, [&](std::size_t i) { return model.nodes.coordinates[rows[i]][0]; });
+  std::vector<double> squares(rows.size(), std::numeric_limits<double>::max());
+  for (std::size_t i = 0; i < order.size(); ++i)
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const auto a = at(i), b = at(j);
+      const double ahead = (b[0] - a[0]) * (b[0] - a[0]);
+      if (ahead > squares[order[i]]) break;
+      const double square = ahead + (b[1] - a[1]) * (b[1] - a[1]) + (b[2] - a[2]) * (b[2] - a[2]);
+      for (const auto k : {order[i], order[j]}) squares[k] = std::min(squares[k], square);
+    }
+  return squares;
 }
 
 void refuse_turned_surfaces(const Model& model, const ContactPair& pair) {
@@ -57,7 +76,12 @@ MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& dom
     if (soft_) density.assign(static_cast<std::size_t>(model.nodes.size()), *interaction.pressure_slope);
   }
   if (density.empty()) density = stiffness_per_area(model, pair);
+  const bool of_nodes = model.surfaces[pair.slave].faces.empty();
+  const auto squares = of_nodes ? nearest_squares(model, nodes) : std::vector<double>{};
+  const auto masters = surface_nodes(model, model.surfaces[pair.master]);
+  std::size_t row_of_node = 0;
   for (auto& from : slave_places(model, pair)) {
+    const double square = of_nodes ? squares[row_of_node++] : from.area;
     if (domain.local_node[from.nodes.front()] < 0) continue;
     auto& place = places_.emplace_back();
     for (std::size_t i = 0; i < from.nodes.size(); ++i) {
@@ -66,7 +90,10 @@ MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& dom
     }
     place.weights = std::move(from.weights);
     place.area = from.area;
-    place.owned = domain.owned[place.nodes.front()];
+    place.spacing = square;
+    // A node of the master itself is never off it.
+    const bool of_master = !pair.of_faces && std::ranges::binary_search(masters, from.nodes.front());
+    place.owned = domain.owned[place.nodes.front()] && !of_master;
   }
   for (const auto surface : {pair.slave, pair.master})
     for (const auto node : surface_nodes(model, model.surfaces[surface]))
@@ -74,6 +101,13 @@ MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& dom
   master_area_.resize(domain.local_node.size());
   for (const auto& from : slave_places(model, {.slave = pair.master, .master = pair.master}))
     if (const auto local = domain.local_node[from.nodes.front()]; local >= 0) master_area_[local] = from.area;
+}
+
+void MeshContact::prepare(const double* position, bool implicit) {
+  constexpr double in_iterations = 2.0, in_cycles = 0.5;  // of the faces' edge
+  faces_.set_reach((implicit ? in_iterations : in_cycles) * faces_.edge());
+  located_.clear();
+  follow(position);
 }
 
 void MeshContact::follow(const double* position) {
@@ -123,7 +157,7 @@ std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& pla
   }
   const double force = state.multiplier + k * overclosure;
   if (force > 0.0) return NormalSpring{force, -k, true};
-  if (force > -k * touching * faces_.reach()) return NormalSpring{0.0, -k, false};
+  if (force > -k * touching * faces_.edge()) return NormalSpring{0.0, -k, false};
   return std::nullopt;
 }
 

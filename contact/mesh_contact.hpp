@@ -39,6 +39,13 @@ struct MeshTangent {
   Vector3<double> slip{};              // over the increment
 };
 
+/// What a pair sees of a cycle: nodal arrays (4 a node) and the increments before and behind the instant.
+struct MeshCycle {
+  const double* position = nullptr;
+  const double* velocity = nullptr;  // over the increment before
+  double previous = 0.0, next = 0.0;
+};
+
 class MeshContact {
  public:
   MeshContact() = default;
@@ -56,6 +63,8 @@ class MeshContact {
   /// Whether the deck gives the slope of pressure, which is not augmented then.
   bool is_soft() const { return soft_; }
 
+  /// When a step starts or goes on: how far places may move in an iteration or a cycle decides how far faces are looked for.
+  void prepare(const double* position, bool implicit);
   /// Keeps an eye on where the surfaces are, before the other functions are called with these positions.
   void follow(const double* position);
   /// The faces that a place would be coupled with at these positions.
@@ -70,7 +79,7 @@ class MeshContact {
 
   /// Explicit: advances the places that this rank owns and adds their forces, rounded with each node's constant, to the nodes of both
   /// surfaces. Call before the halo sums.
-  void add_forces(const double* position, std::vector<ContactPoint>& points, double* force);
+  void add_forces(const MeshCycle& cycle, std::vector<ContactPoint>& points, double* force);
   /// Adds the stiffness of the springs that act on each node of the surfaces, each counted with all that it moves, to `sum`: over the mass
   /// of the node it bounds the square of a frequency (Gershgorin). Wherever places may come.
   void add_spring_stiffness(std::span<double> sum) const;
@@ -111,6 +120,7 @@ class MeshContact {
     std::vector<std::int32_t> nodes;  // local
     std::vector<double> weights;
     double area = 0.0, stiffness = 0.0;
+    double spacing = 0.0;  // area that there is for each place: `area`, or of node-based surfaces the square of the nearest distance
     bool owned = false;
   };
   /// Of the spring that `state` has.
@@ -131,7 +141,9 @@ class MeshContact {
   template <int face_nodes>
   void linearize_on(std::int32_t place, const FacePlace& foot, const NormalSpring& spring, const double* position, const ContactPoint& old, ContactPoint& updated,
                     bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const;
-  void advance(const double* position, const Place& place, ContactPoint& point, double* force) const;
+  static void lower_multiplier(const Place& place, const FacePlace& foot, ContactPoint& point);
+  void advance(const MeshCycle& cycle, const Place& place, ContactPoint& point, double* force) const;
+  double mean_force(const MeshCycle& cycle, const Place& place, const FacePlace& foot, const ContactPoint& point) const;
   /// A place gives way by `slip`: its anchor goes with it.
   void slide(const double* position, const Vector3<double>& slip, const Vector3<double>& where, const FacePlace& foot, ContactPoint& point) const;
   void set_anchor(const double* position, const Vector3<double>& where, const FacePlace& otherwise, ContactPoint& point) const;

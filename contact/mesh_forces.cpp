@@ -34,25 +34,58 @@ void MeshContact::keep_force(const double* position, const Place& place, double 
   }
   point.implicit_spring = spring;
   const auto law = parameters(place, point);
+  point.stiff_force = point.multiplier;
   point.multiplier = acting->force + law.stiffness * foot.distance;
   const double tangential = tangential_stiffness(law, law.sliding_limit(acting->force));
   if (has_anchor(point) && tangential > 0.0) set_anchor(position, on_surface + (1.0 / tangential) * friction, foot, point);
 }
 
-void MeshContact::add_forces(const double* position, std::vector<ContactPoint>& points, double* force) {
-  follow(position);
+void MeshContact::add_forces(const MeshCycle& cycle, std::vector<ContactPoint>& points, double* force) {
+  follow(cycle.position);
   for (std::int32_t i = 0; i < size(); ++i)
-    if (places_[i].owned) advance(position, places_[i], points[i], force);
+    if (places_[i].owned) advance(cycle, places_[i], points[i], force);
 }
 
-void MeshContact::advance(const double* position, const Place& place, ContactPoint& point, double* force) const {
+/// What gives the bodies the energy that the spring loses between the middles of the increments before and behind, if the place goes on as
+/// it came: where a spring closes or opens within a cycle, its force at the instant would give too much or too little.
+double MeshContact::mean_force(const MeshCycle& cycle, const Place& place, const FacePlace& foot, const ContactPoint& point) const {
+  const auto nodes = faces_.nodes(foot.face);
+  const auto shapes = face_shapes(nodes.size(), foot.xi, foot.eta);
+  const auto velocity_of = [&](std::int32_t node) {
+    const double* const v = cycle.velocity + 4 * static_cast<std::ptrdiff_t>(node);
+    return foot.normal[0] * v[0] + foot.normal[1] * v[1] + foot.normal[2] * v[2];
+  };
+  double opening = 0.0;
+  for (std::size_t i = 0; i < place.nodes.size(); ++i) opening += place.weights[i] * velocity_of(place.nodes[i]);
+  for (std::size_t a = 0; a < nodes.size(); ++a) opening -= shapes.value[a] * velocity_of(nodes[a]);
+  const double k = stiffness(place, point);
+  const double before = point.multiplier - k * (foot.distance - 0.5 * cycle.previous * opening);
+  const double behind = point.multiplier - k * (foot.distance + 0.5 * cycle.next * opening);
+  if (before >= 0.0 && behind >= 0.0) return 0.5 * (before + behind);
+  if (before <= 0.0 && behind <= 0.0) return 0.0;
+  const double held = std::max(before, behind);
+  return 0.5 * held * held / std::abs(before - behind);
+}
+
+/// A multiplier from statics goes with its stiff spring: as the place rises, no more is left of it than that spring would exert. Nothing
+/// pushes across a gap.
+void MeshContact::lower_multiplier(const Place& place, const FacePlace& foot, ContactPoint& point) {
+  if (!(point.multiplier > 0.0)) return;
+  const double of_stiff_spring = point.stiff_force - (stiff_factor - 1.0) * place.stiffness * foot.distance;
+  point.multiplier = std::clamp(of_stiff_spring, 0.0, point.multiplier);
+}
+
+void MeshContact::advance(const MeshCycle& cycle, const Place& place, ContactPoint& point, double* force) const {
+  const double* const position = cycle.position;
   const auto where = at(place, position);
   const auto foot = faces_.nearest(position, where);
+  if (!soft_ && foot.face >= 0) lower_multiplier(place, foot, point);
   const auto spring = spring_at(place, foot, point);
-  if (!spring || !spring->closed) return open(foot, point);
+  const double pressure = foot.face < 0 ? 0.0 : tension_width_ > 0.0 ? (spring ? spring->force : 0.0) : mean_force(cycle, place, foot, point);
+  if (pressure == 0.0) return open(foot, point);
   ContactForce<double> contact;
-  contact.pressure = spring->force;
-  if (has_anchor(point) && spring->force > 0.0) {
+  contact.pressure = pressure;
+  if (has_anchor(point) && pressure > 0.0) {
     auto stretch = where - anchor_of(position, point);
     stretch = stretch - dot(stretch, foot.normal) * foot.normal;
     const double kept = add_tangential_spring(parameters(place, point), stretch, point, contact);
@@ -61,7 +94,7 @@ void MeshContact::advance(const double* position, const Place& place, ContactPoi
     point.anchor = {static_cast<double>(foot.face), foot.xi, foot.eta};
   }
   point.closed = 1.0;
-  const auto push = spring->force * foot.normal + contact.friction;
+  const auto push = pressure * foot.normal + contact.friction;
   const auto add = [&](std::int32_t node, double share) {
     double* const sum = force + 4 * static_cast<std::ptrdiff_t>(node);
     for (int k = 0; k < 3; ++k) sum[k] += rounded(share * push[k], sum[3]);
@@ -77,9 +110,10 @@ void MeshContact::add_spring_stiffness(std::span<double> sum) const {
   constexpr double both_sides = 2.5;
   double stiffest = 0.0, densest = 0.0;
   for (const auto& place : places_) {
-    stiffest = std::max(stiffest, place.stiffness);
-    densest = std::max(densest, place.stiffness / place.area);
-    for (std::size_t i = 0; i < place.nodes.size(); ++i) sum[place.nodes[i]] += both_sides * place.stiffness * std::abs(place.weights[i]);
+    const double stiffness = std::max(place.stiffness, stick_slope_ * place.area);  // one acts along the normal, one across it
+    stiffest = std::max(stiffest, stiffness);
+    densest = std::max(densest, stiffness / place.spacing);
+    for (std::size_t i = 0; i < place.nodes.size(); ++i) sum[place.nodes[i]] += both_sides * stiffness * std::abs(place.weights[i]);
   }
   // Below a node of the master there are as many places as its area holds, and one more.
   for (const auto node : nodes_)

@@ -9,9 +9,6 @@ namespace balocco {
 
 namespace {
 
-/// Distance, of the faces' edge, below which the direction from an edge or a corner is round-off.
-constexpr double no_direction = 1e-9;
-
 /// Values of the shape functions of a face at a foot and their first and second derivatives.
 struct FootShapes {
   AnyFaceShapes at;
@@ -39,7 +36,7 @@ struct MovingFoot {
   std::array<Scalar, N> weight;
   Scalar xi, eta, gap;
 
-  MovingFoot(const FacePlace& found, std::span<const std::int32_t> nodes, const double* position, const Vector3<double>& at, double reach)
+  MovingFoot(const FacePlace& found, std::span<const std::int32_t> nodes, const double* position, const Vector3<double>& at, double edge)
       : xi(found.xi), eta(found.eta) {
     for (int i = 0; i < 3; ++i) {
       place[i] = Scalar(at[i], i);
@@ -57,12 +54,13 @@ struct MovingFoot {
     foot = sum(weight);
     const auto arm = place - foot;
     const Scalar square = dot(arm, arm);
+    constexpr double no_direction = 1e-9;  // of the edge: below that the direction of the arm is round-off
     const Vector3<Scalar> fixed{Scalar(found.normal[0]), Scalar(found.normal[1]), Scalar(found.normal[2])};
     if (found.freedoms == 2) {
       normal = cross(sum(by_xi), sum(by_eta));
       normal = (1.0 / square_root(dot(normal, normal))) * normal;
       gap = dot(arm, normal);
-    } else if (square.value > no_direction * no_direction * reach * reach) {
+    } else if (square.value > no_direction * no_direction * edge * edge) {
       const double side = found.distance < 0.0 ? -1.0 : 1.0;
       gap = side * square_root(square);
       normal = (1.0 / gap) * arm;
@@ -169,7 +167,7 @@ void MeshContact::linearize_on(std::int32_t index, const FacePlace& found, const
   using Scalar = typename MovingFoot<N>::Scalar;
   const auto& place = places_[index];
   const auto law = parameters(place, old);
-  const MovingFoot<N> moving(found, faces_.nodes(found.face), position, at(place, position), faces_.reach());
+  const MovingFoot<N> moving(found, faces_.nodes(found.face), position, at(place, position), faces_.edge());
   ContactForce<Scalar> contact;
   contact.pressure = Scalar::chain(spring.force, spring.slope, moving.gap);
   tangent.closed = spring.closed;

@@ -202,6 +202,7 @@ bool faces_away(const Model& model, const Surface& slave, const Surface& master)
   for (const auto& face : master.faces) faces.push_back(face_geometry(model, face_nodes(model, face)));
   if (slave.faces.empty() || faces.empty()) return false;
   return std::ranges::all_of(slave.faces, [&](const FaceRef& face) {
+    if (model.elements[face.element.table].type->section != Section::Kind::solid) return false;  // sheets may be pushed from either side
     const FaceGeometry geometry = face_geometry(model, face_nodes(model, face));
     const auto distance = [&](const FaceGeometry& other) {
       const auto apart = other.centroid - geometry.centroid;

@@ -33,7 +33,8 @@ SlaveNodes slave_nodes(const Model& model, const ContactPair& pair);
 /// True if there are faces and not one of them looks towards `master` at the reference.
 bool faces_away(const Model& model, const Surface& slave, const MasterSurface& master, const Point& master_reference);
 
-/// The same for a master of element faces: true if the slave has faces and each of them looks in the direction of the nearest of the master's.
+/// The same for a master of element faces: true if the slave has faces, all of solids, that look in the direction of the nearest of the
+/// master's.
 bool faces_away(const Model& model, const Surface& slave, const Surface& master);
 
 }  // namespace balocco

@@ -231,7 +231,7 @@ void Analysis::start_step(const Step& step) {
   for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
     const bool active = std::ranges::count(step.active_contact_pairs, static_cast<std::int32_t>(pair)) > 0;
     const bool implicit = !std::holds_alternative<ExplicitProcedure>(step.procedure);
-    mesh_contacts[pair].follow(current.position.data());
+    mesh_contacts[pair].prepare(current.position.data(), implicit);
     mesh_contacts[pair].start_step(current.position.data(), active, current.contact[pair]);
     mesh_contacts[pair].choose_springs(current.position.data(), implicit, current.contact[pair]);
     const auto& contact = contacts[pair];
@@ -284,7 +284,9 @@ void Analysis::apply_mass_scale() {
 }
 
 void Analysis::take_up_checkpoint() {
-  for (auto& contact : mesh_contacts) contact.follow(current.position.data());
+  const bool ended = current.step >= static_cast<std::int32_t>(model.steps.size());
+  const bool implicit = ended || !std::holds_alternative<ExplicitProcedure>(model.steps[current.step].procedure);
+  for (auto& contact : mesh_contacts) contact.prepare(current.position.data(), implicit);
   index_rigid_nodes();
   apply_mass_scale();
   const std::array of_rows{&current.multiplier, &current.guide_motion, &current.guide_locked};

@@ -104,9 +104,10 @@ void ExplicitContact::report_overclosure(const Analysis& analysis, Observer& obs
   }
 }
 
-void ExplicitContact::add_mesh_forces(Analysis& analysis, double* force) const {
-  for (const auto row : mesh_pairs_)
-    analysis.mesh_contacts[row].add_forces(analysis.current.position.data(), analysis.current.contact[row], force);
+void ExplicitContact::add_mesh_forces(Analysis& analysis, const Instant& instant, double* force) const {
+  auto& state = analysis.current;
+  const MeshCycle cycle{state.position.data(), state.velocity.data(), instant.previous, instant.next};
+  for (const auto row : mesh_pairs_) analysis.mesh_contacts[row].add_forces(cycle, state.contact[row], force);
 }
 
 void ExplicitContact::add_forces(Analysis& analysis, double* force) const {

@@ -24,7 +24,7 @@ class ExplicitContact {
   void report_overclosure(const Analysis& analysis, Observer& observer) const;
 
   /// Deformable masters: before the halo's sums.
-  void add_mesh_forces(Analysis& analysis, double* force) const;
+  void add_mesh_forces(Analysis& analysis, const Instant& instant, double* force) const;
   /// Soft springs: between the halo's two halves, alike on every copy of a node.
   void add_forces(Analysis& analysis, double* force) const;
   /// Stiff springs: when `force` is whole and NodalConstraints::find_velocities() has told what is prescribed.

@@ -275,7 +275,7 @@ void ExplicitStep::rest_failed_elements() {
 }
 
 void ExplicitStep::add_mesh_contact() {
-  timers.measure(Phase::contact, [&] { contact_.add_mesh_forces(analysis_, force_.data()); });
+  timers.measure(Phase::contact, [&] { contact_.add_mesh_forces(analysis_, {.previous = last_increment_, .next = last_increment_}, force_.data()); });
 }
 
 void ExplicitStep::add_soft_contact() {

@@ -188,6 +188,7 @@ void adjust(Builder& builder, const Block& block, const Row& row, const std::arr
   const auto text = block.value("ADJUST");
   const auto distance = parse_real(text);
   std::vector<std::int32_t> chosen;
+  if (distance && *distance < 0.0) return builder.error(block, row.location(), fmt::format("ADJUST={} must not be negative; correct it", *distance));
   if (!distance && !builder.nodes_of(text, block, row.location(), chosen)) return;
   std::ranges::sort(chosen);
   const FaceProjection faces(model, model.surfaces[pair[1]]);

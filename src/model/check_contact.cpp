@@ -3,8 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 #include "elements/element_type.hpp"
+#include "elements/surface_nodes.hpp"
 
 namespace balocco {
 
@@ -41,6 +43,33 @@ void check_slave_nodes(const Model& model, const ContactPair& pair, Errors& erro
   }
 }
 
+/// A node that is on the master itself is never off it.
+void check_self(const Model& model, const ContactPair& pair, Errors& errors) {
+  const auto& master = model.surfaces[pair.master];
+  if (!deforms(model, master)) return;
+  const auto slaves = surface_nodes(model, model.surfaces[pair.slave]), masters = surface_nodes(model, master);
+  if (slaves.empty() || !std::ranges::includes(masters, slaves)) return;
+  errors.emplace_back(pair.location, fmt::format("*CONTACT PAIR: all nodes of the slave {} are nodes of the master {} too: contact of a surface "
+                                                 "with itself is not supported; make surfaces and pairs of the parts that touch",
+                                                 model.surfaces[pair.slave].name, master.name));
+}
+
+/// Between the two sides of one sheet nothing tells on which a place stands.
+void check_sides(const Model& model, const ContactPair& pair, Errors& errors) {
+  const auto& master = model.surfaces[pair.master];
+  if (!deforms(model, master)) return;
+  std::set<ElementRef> sheets;
+  for (const auto& face : master.faces) {
+    const auto& table = model.elements[face.element.table];
+    const bool sheet = table.type->section == Section::Kind::shell || table.type->section == Section::Kind::membrane;
+    if (!sheet || sheets.insert(face.element).second) continue;
+    errors.emplace_back(pair.location, fmt::format("*CONTACT PAIR: the master {} has both sides of element {}; give each side, SPOS and SNEG, a "
+                                                   "surface and a pair of its own",
+                                                   master.name, model.element_name(face.element)));
+    return;
+  }
+}
+
 void check_interaction(const Model& model, const ContactPair& pair, Errors& errors) {
   const bool soft = pair.interaction >= 0 && model.interactions[pair.interaction].pressure_slope.has_value();
   if (soft && is_rigid(model, model.surfaces[pair.master]))
@@ -56,6 +85,8 @@ Errors check_contact(const Model& model) {
   for (const auto& pair : model.contact_pairs) {
     check_surfaces(model, pair, errors);
     check_slave_nodes(model, pair, errors);
+    check_self(model, pair, errors);
+    check_sides(model, pair, errors);
     check_interaction(model, pair, errors);
   }
   return errors;

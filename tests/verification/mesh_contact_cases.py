@@ -300,6 +300,35 @@ def at_rest(runner):
             assert np.abs(results[0].node("U", 2) - other.node("U", 2)).max() < 1e-9
 
 
+def released(runner):
+    """Hard contact pressed in statics, whose multipliers are large, and let go in an explicit step: the block flies off with what was
+    stored and no more."""
+    deck = blocks(4, 3, at=(0.1, 0.1), size=(1.2, 1.0), kinds=("C3D8R", "C3D8R"), poisson=0.3)
+    pair(deck, "NODE TO SURFACE")
+    static(deck, "*BOUNDARY\nBASE, 1, 3\nTOP, 1, 2\nTOP, 3, 3, -0.05\n")
+    deck.add("*STEP, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, 0.03\n*BULK VISCOSITY\n0., 0.\n*BOUNDARY, OP=NEW\nBASE, 1, 3\n%s*END STEP" % OUTPUT.replace(
+        "U, RF", "U, V").replace("FIELD, FREQUENCY=1,", "FIELD, NUMBER INTERVAL=2,"))
+    results = runner.run("released", deck)
+    assert history(results, "CFN", 2)[-1][2] == 0.0, "the block has not left"
+    stored, total = energy(results, "ALLIE", 1)[-1], energy(results, "ETOTAL", 2)
+    print("energy moves by %.2e of what was stored" % (np.abs(total - total[0]).max() / stored))
+    assert np.abs(total - total[0]).max() < 6e-2 * stored
+    assert energy(results, "ALLKE", 2)[-1] + energy(results, "ALLIE", 2)[-1] < 1.06 * stored
+
+
+def pushed_far(runner):
+    """A block is pushed onto another one by more than the edges of its elements, in one increment as in ten; two that overlap to begin with
+    are pressed apart."""
+    forces = []
+    for name, gap, push, increments in (("one", 0.1, 0.4, "1., 1."), ("ten", 0.1, 0.4, "0.1, 1., 1e-5, 0.1"), ("overlap", -0.2, 0.1, "1., 1.")):
+        deck = blocks(4, 4, gap=gap)
+        pair(deck, "SURFACE TO SURFACE")
+        static(deck, "*BOUNDARY\nBASE, 1, 3\nTOP, 1, 2\nTOP, 3, 3, %g\n" % -push, increments)
+        forces.append(history(runner.run("far_" + name, deck), "CFN")[-1][2])
+    close(forces[0], forces[1], 1e-3, "force in one increment, as in ten")
+    close(forces[2], forces[1], 1e-3, "force of the overlap")
+
+
 def skid(runner):
     """VERIFY.md, SLIDE: a block of speed v comes to rest on a level base after v^2 / (2 mu g), and all its energy is friction's. It passes
     over the faces of the base, first pressed down by its weight in statics."""
@@ -325,7 +354,7 @@ def skid(runner):
 
 
 CASES = {"patch": patch, "printed": printed, "free_body": free_body, "sliding": sliding, "restarted": restarted, "standing_together": standing_together, "rods": rods, "explicit_rods": explicit_rods,
-         "at_rest": at_rest, "skid": skid}
+         "at_rest": at_rest, "skid": skid, "released": released, "pushed_far": pushed_far}
 
 if __name__ == "__main__":
     case, program, folder = sys.argv[1:4]
