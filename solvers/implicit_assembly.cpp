@@ -146,6 +146,7 @@ void ImplicitSystem::add_element(std::size_t index, std::int32_t element, const 
     return;
   }
   group.scatter_history(element, new_history_, trial_history_[index]);
+  if (!unstiffening_rows_[index].empty()) leave_out_initial_stress(index, element, motion);
   for (std::size_t i = 0; i < nodes.size(); ++i)
     for (int dof = 0; dof < freedoms; ++dof) {
       const auto slot = map_.slot(nodes[i], dof);
@@ -155,6 +156,14 @@ void ImplicitSystem::add_element(std::size_t index, std::int32_t element, const 
     }
   force_sum_[1] += static_cast<double>(force_.size());
   if (!rigid) stiffness_.add(motions_of(group, element), block_);
+}
+
+/// Makes block_ the stiffness of the material alone: in steps of first order an initial stress is a force.
+void ImplicitSystem::leave_out_initial_stress(std::size_t index, std::int32_t element, const NodalMotion& motion) {
+  const auto& group = *analysis_.element_groups[index];
+  other_force_.resize(force_.size());
+  for (const int row : unstiffening_rows_[index]) old_history_[row] = 0.0;
+  group.linearize(element, motion, old_history_, new_history_, other_force_, block_);
 }
 
 void ImplicitSystem::add_loads(const AssemblyRequest& request) {

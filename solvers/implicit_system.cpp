@@ -5,6 +5,7 @@
 
 #include "constraints/rigid_body.hpp"
 #include "elements/element_type.hpp"
+#include "elements/initial_stress_rows.hpp"
 #include "math/rotation.hpp"
 #include "model/bounding_box.hpp"
 #include "model/rigid_constraints.hpp"
@@ -24,6 +25,8 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
     if (map_.role(slot) == ImplicitDofMap::Role::absent) analysis_.current.multiplier[map_.constraint_row(slot)] = 0.0;
   if (const auto* dynamic = std::get_if<DynamicProcedure>(&step.procedure))
     dynamics_ = std::make_unique<AlphaMethod>(analysis, map_, dynamic->alpha, has_contact());
+  for (const auto& group : analysis.element_groups)
+    unstiffening_rows_.push_back(analysis.current.linear && !step.is_perturbation() ? initial_stress_rows(*group) : std::vector<int>{});
   find_levers();
   find_stabilizing_masses();
   guides_.begin_increment(analysis_);

@@ -163,6 +163,7 @@ class ImplicitSystem {
   void add_half_residual_turns();
   void turn_into_slot_directions(std::vector<double>& forces) const;
   bool everywhere_sound(bool sound);
+  void leave_out_initial_stress(std::size_t group, std::int32_t element, const NodalMotion& motion);
   void find_levers();
   void find_stabilizing_masses();
   std::span<const NodeMotion> motions_of(std::span<const std::int32_t> nodes);
@@ -176,6 +177,8 @@ class ImplicitSystem {
   SlotExchange exchange_;
   ImplicitStiffness stiffness_;
   GuideLaws guides_;
+  /// Per element group: where initial stresses are that do not stiffen, as they do not in linear steps but perturbations.
+  std::vector<std::vector<int>> unstiffening_rows_;
   Configuration start_;
   std::vector<std::vector<double>> trial_history_;
   std::vector<std::vector<ContactPoint>> start_contact_, trial_contact_;
@@ -198,7 +201,7 @@ class ImplicitSystem {
   std::string trouble_;
   std::vector<NodeMotion> motions_;                                        // scratch
   MeshTangent mesh_tangent_;                                               // scratch
-  std::vector<double> old_history_, new_history_, force_, block_;  // scratch
+  std::vector<double> old_history_, new_history_, force_, other_force_, block_;  // scratch
   std::vector<double> nodal_, nodal_moment_;                       // scratch
   std::vector<NodePlace> places_;                                  // scratch
   std::vector<double> gaps_, gradient_, curvature_;                // scratch

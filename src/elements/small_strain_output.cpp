@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "elements/initial_stress_rows.hpp"
 #include "elements/membranes/membrane_output.hpp"
 #include "math/rotation.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 
 /// Strain at which derivatives are sampled: five-point formulas then err by 1e-12 in both truncation and round-off.
 constexpr double sampling_strain = 1e-3;
-constexpr std::size_t most_values = 60;  // forces on 20 nodes
 
 bool is_energy(std::string_view variable) { return variable == "SENER" || variable == "ELSE" || variable == "ELASE"; }
 
@@ -59,26 +59,40 @@ NodalMotion SmallStrainOutput::place(const ElementGroup& group, std::int32_t ele
   return {.position = trial_.data(), .orientation = trial_orientation_.data(), .rotation = trial_rotation_.data()};
 }
 
+template <class Evaluate>
+void SmallStrainOutput::sample(const ElementGroup& group, std::int32_t element, const State& state, std::span<const double> history,
+                               Evaluate evaluate, std::size_t count, double step, Samples& samples) {
+  trial_history_.resize(history.size());
+  force_.resize(static_cast<std::size_t>(group.freedoms_per_node()) * group.nodes(element).size());
+  for (int k = 0; k < 5; ++k) {
+    const auto motion = place(group, element, state, (k - 2) * step);
+    group.linearize(element, motion, history, trial_history_, force_, {});
+    evaluate(motion, trial_history_, std::span(samples[k]).first(count));
+  }
+}
+
 /// Taylor's polynomial of `order` 1 or 2: values of `evaluate(motion, history, values)` where the displacement is whole.
 template <class Evaluate>
 void SmallStrainOutput::expand(const ElementGroup& group, std::int32_t element, const State& state,
                                std::span<const double> history, Evaluate evaluate, int order, std::span<double> values) {
-  std::array<std::array<double, most_values>, 5> sample{};  // at -2, -1, 0, 1, 2 steps
-  trial_history_.resize(history.size());
-  force_.resize(static_cast<std::size_t>(group.freedoms_per_node()) * group.nodes(element).size());
+  Samples whole{}, unstressed{};
   const double h = step(group, element, state);
-  for (int k = 0; k < 5; ++k) {
-    const auto motion = place(group, element, state, (k - 2) * h);
-    group.linearize(element, motion, history, trial_history_, force_, {});
-    evaluate(motion, trial_history_, std::span(sample[k]).first(values.size()));
+  sample(group, element, state, history, evaluate, values.size(), h, whole);
+  const auto rows = initial_stress_stiffens_ ? std::vector<int>{} : initial_stress_rows(group);
+  if (!rows.empty()) {
+    unstressed_history_.assign(history.begin(), history.end());
+    for (const int row : rows) unstressed_history_[row] = 0.0;
+    sample(group, element, state, unstressed_history_, evaluate, values.size(), h, unstressed);
   }
+  // What the material resists: the slope of forces and stresses, the curvature of energies.
+  const auto& material = rows.empty() ? whole : unstressed;
+  const auto& sloping = order < 2 ? material : whole;
   for (std::size_t c = 0; c < values.size(); ++c) {
-    const double far = sample[4][c] - sample[0][c], near = sample[3][c] - sample[1][c], centre = sample[2][c];
-    values[c] = centre;
+    values[c] = whole[2][c];
     if (h == 0.0) continue;
-    values[c] += (8.0 * near - far) / (12.0 * h);
+    values[c] += (8.0 * (sloping[3][c] - sloping[1][c]) - (sloping[4][c] - sloping[0][c])) / (12.0 * h);
     if (order < 2) continue;
-    const double outer = sample[4][c] + sample[0][c] - 2.0 * centre, inner = sample[3][c] + sample[1][c] - 2.0 * centre;
+    const double twice = 2.0 * material[2][c], outer = material[4][c] + material[0][c] - twice, inner = material[3][c] + material[1][c] - twice;
     values[c] += 0.5 * (16.0 * inner - outer) / (12.0 * h * h);
   }
 }

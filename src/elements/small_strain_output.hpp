@@ -1,8 +1,10 @@
 // What elements show after geometrically linear steps: Taylor's polynomials, about the reference configuration, of what their
 // kernels compute at finite strain. Those of first order are small strain and the law's tangent times it; of energies the
-// quadratic ones. No element or law has to know.
+// quadratic ones. No element or law has to know. An initial stress is a force alone, without stiffness, unless the procedure says that it
+// stiffens.
 #pragma once
 
+#include <array>
 #include <string_view>
 #include <vector>
 
@@ -15,6 +17,8 @@ class SmallStrainOutput {
  public:
   /// `reference`: where the nodes are in the reference configuration, 4 values a node and a scratch node behind them.
   explicit SmallStrainOutput(std::vector<double> reference) : reference_(std::move(reference)), trial_(reference_) {}
+
+  void let_initial_stress_stiffen(bool stiffens) { initial_stress_stiffens_ = stiffens; }
 
   /// As ElementGroup::output. `history` is that of the reference configuration; the relative error is about 1e-11.
   void output(const ElementGroup& group, std::string_view variable, std::int32_t element, int point, const State& state,
@@ -29,12 +33,17 @@ class SmallStrainOutput {
  private:
   double step(const ElementGroup& group, std::int32_t element, const State& state) const;
   NodalMotion place(const ElementGroup& group, std::int32_t element, const State& state, double factor);
+  using Samples = std::array<std::array<double, 60>, 5>;  // of forces on 20 nodes at most; at -2, -1, 0, 1, 2 steps
+  template <class Evaluate>
+  void sample(const ElementGroup& group, std::int32_t element, const State& state, std::span<const double> history, Evaluate evaluate,
+              std::size_t count, double step, Samples& samples);
   template <class Evaluate>
   void expand(const ElementGroup& group, std::int32_t element, const State& state, std::span<const double> history,
               Evaluate evaluate, int order, std::span<double> values);
 
   std::vector<double> reference_, trial_, trial_orientation_, trial_rotation_;
-  std::vector<double> trial_history_, force_;
+  std::vector<double> trial_history_, unstressed_history_, force_;
+  bool initial_stress_stiffens_ = false;
 };
 
 }  // namespace balocco

@@ -29,7 +29,6 @@ NOTES = {
     "beampisof": "modes about the state of beampiso",
     "beamnldye": "explicit: other increments, each of them printed; the motion of the tip agrees to 3.7e-3 (ccx_cases.py)",
     "beamnldype": "explicit: other increments, each of them printed; the motion of the tip agrees to 3.2e-4 (ccx_cases.py)",
-    "resstress1": "linear steps here have the stress stiffness of an initial stress, CalculiX's have not",
     "beamplane": "CalculiX takes four increments and prints each, here one is enough; the end agrees to 8.4e-5",
     "beamnldy": "a load that is there at once, in one increment: here the first acceleration is that of the consistent mass; the same deck "
                 "with the load rising within 1e-12 agrees to the digits printed",

@@ -80,6 +80,112 @@ BOTTOM, 3
         check(f"{kind}: displacement then", job.frame("U", -1, 3)[1, 0], math.sqrt(1.0 + 2.0 * strain) - 1.0, 1e-9)
 
 
+def linear_initial_stress(run):
+    """Linear steps count an initial stress as a force alone, as the theory of first order has it: they give what the same force on the
+    body without stress gives. Modes about a state with NLGEOM have its stress stiffness: a mass between two taut bars."""
+    square = """*NODE, NSET=ALL
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, 1, 0
+4, 0, 1, 0
+*NSET, NSET=LEFT
+1, 4
+*NSET, NSET=RIGHT
+2, 3
+*BOUNDARY
+ALL, 3
+"""
+    bodies = {"C3D8R": UNIT_CUBE + "*ELEMENT, TYPE=C3D8R, ELSET=BODY\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*SOLID SECTION, ELSET=BODY, MATERIAL=M\n",
+              "C3D8": UNIT_CUBE + "*ELEMENT, TYPE=C3D8, ELSET=BODY\n1, 1, 2, 3, 4, 5, 6, 7, 8\n*SOLID SECTION, ELSET=BODY, MATERIAL=M\n",
+              "M3D4": square + "*ELEMENT, TYPE=M3D4, ELSET=BODY\n1, 1, 2, 3, 4\n*MEMBRANE SECTION, ELSET=BODY, MATERIAL=M\n1.\n",
+              "T3D2": """*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 1, -1, 0
+*NSET, NSET=LEFT
+1, 3
+*NSET, NSET=RIGHT
+2
+*BOUNDARY
+2, 3
+*ELEMENT, TYPE=T3D2, ELSET=BODY
+1, 1, 2
+*ELEMENT, TYPE=T3D2, ELSET=OTHER
+2, 3, 2
+*SOLID SECTION, ELSET=BODY, MATERIAL=M
+1.
+*SOLID SECTION, ELSET=OTHER, MATERIAL=M
+1.
+"""}
+    procedures = {"static": "*STATIC\n1., 1.\n", "dynamic": "*DYNAMIC, DIRECT, ALPHA=0.\n1e-4, 2e-3\n"}
+    for kind, body in bodies.items():
+        nodes = {"C3D8R": 4, "C3D8": 4, "M3D4": 2, "T3D2": 1}[kind]
+        for name, procedure in procedures.items():
+            jobs = []
+            for stress, push, ranks in ((100.0, 0.0, 2), (0.0, -100.0 / nodes, 1)):
+                initial = f"*INITIAL CONDITIONS, TYPE=STRESS\nBODY, {stress}\n" if stress else ""
+                jobs.append(run(body + f"""*BOUNDARY
+LEFT, 1, 3
+*MATERIAL, NAME=M
+*DENSITY
+1e-3
+*ELASTIC
+1000., 0.25
+{initial}*STEP
+{procedure}*CLOAD
+RIGHT, 2, {50.0 / nodes}
+RIGHT, 1, {push}
+{FIELD}*OUTPUT, HISTORY, FREQUENCY=1
+*ENERGY OUTPUT
+ALLIE, ETOTAL
+*END STEP
+""", ranks))
+            stressed, pushed = jobs
+            largest = np.abs(pushed.frame("U", -1)).max()
+            check(f"{kind}, {name}: displacements", np.abs(stressed.frame("U", -1) - pushed.frame("U", -1)).max() / largest, 0.0, 1e-9)
+            check(f"{kind}, {name}: stress", (stress_of(stressed, kind, 1) - stress_of(pushed, kind, 1))[0], 100.0, 1e-8)
+            check(f"{kind}, {name}: reaction", (stressed.frame("RF", -1) - pushed.frame("RF", -1))[0, 0], -100.0 / nodes, 1e-8)
+            if name == "static":
+                scale = stressed.history("energy", "ALLIE")[1][-1]
+                check(f"{kind}: energy less work", stressed.history("energy", "ETOTAL")[1][-1] / scale, 0.0, 1e-8)
+    job = run("""*NODE
+1, 0, 0, 0
+2, 1, 0, 0
+3, 2, 0, 0
+*ELEMENT, TYPE=T3D2, ELSET=BARS
+1, 1, 2
+2, 2, 3
+*ELEMENT, TYPE=MASS, ELSET=MASS
+3, 2
+*MASS, ELSET=MASS
+1.
+*MATERIAL, NAME=M
+*DENSITY
+1e-12
+*ELASTIC
+1000., 0.25
+*SOLID SECTION, ELSET=BARS, MATERIAL=M
+1.
+*INITIAL CONDITIONS, TYPE=STRESS
+BARS, 5.
+*BOUNDARY
+1, 1, 3
+3, 1, 3
+*STEP, NLGEOM
+*STATIC
+1., 1.
+*END STEP
+*STEP, PERTURBATION
+*FREQUENCY
+1
+*END STEP
+""", 1)
+    import h5py
+    with h5py.File(job.folder / f"{job.name}.h5") as file:
+        found = file["step_2/mode_1"].attrs["frequency"]
+    check("frequency of a mass between taut bars", found, math.sqrt(2.0 * 5.0) / (2.0 * math.pi), 1e-9)
+
+
 def initial_hardening(run):
     """A bar that has hardened by 0.1 yields at the stress that its table has there."""
     plastic = "*PLASTIC\n10., 0.\n20., 0.2\n"
