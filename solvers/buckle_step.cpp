@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "eigenmodes.hpp"
+#include "elements/initial_stress_rows.hpp"
 #include "implicit_linear_solver.hpp"
 #include "implicit_prescribed.hpp"
 #include "implicit_system.hpp"
@@ -67,13 +68,14 @@ void BuckleStep::add_stresses(std::span<const double> response) {
   for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index) {
     const auto& group = *analysis_.element_groups[index];
     std::vector<double> stress(static_cast<std::size_t>(group.output_components("S")));
+    const auto components = initial_stress_components(group);
     for (int point = 0; point < group.integration_points(); ++point) {
       const int row = group.law_field_row("S0", point);
       if (row < 0) continue;
       for (std::int32_t element = 0; element < group.size(); ++element) {
         analysis_.element(index, "S", element, point, stress);
-        for (std::size_t k = 0; k < stress.size(); ++k)
-          histories[index][(static_cast<std::size_t>(row) + k) * group.padded_size() + element] = stress[k];
+        for (std::size_t k = 0; k < components.size(); ++k)
+          histories[index][(static_cast<std::size_t>(row) + k) * group.padded_size() + element] = stress[components[k]];
       }
     }
     repeat_in_padded_lanes(group, histories[index]);

@@ -281,6 +281,25 @@ def sliding(runner):
     assert found["is smooth"][0] < 0.7 * found["held"][0], found
 
 
+def springs_buckled(runner):
+    """A bar between springs across its ends that one of 5 bears, k L / 1, and a square sheet whose corners springs of 0.25 bear across, under
+    a shear of 0.5, k / 0.5: the stress that stiffens a bar or a sheet has one or three components of the six that are shown."""
+    bar = Deck()
+    bar.nodes = {1: (0.0, 0.0, 0.0), 2: (2.0, 0.0, 0.0)}
+    bar.elements = {"T3D2": [(1, (1, 2))], "SPRING1": [(2, (2,))]}
+    bar.add("*ELSET, ELSET=BAR\n1\n*ELSET, ELSET=SPRINGS\n2\n*SPRING, ELSET=SPRINGS\n2\n5.\n*SOLID SECTION, ELSET=BAR, MATERIAL=M\n0.5\n"
+            "*MATERIAL, NAME=M\n*ELASTIC\n1e6, 0.\n*BOUNDARY\n1, 1, 3\n2, 3, 3\n*STEP\n*BUCKLE\n1\n*CLOAD\n2, 1, -1.\n*END STEP")
+    sheet = Deck()
+    sheet.nodes = {1: (0.0, 0.0, 0.0), 2: (1.0, 0.0, 0.0), 3: (1.0, 1.0, 0.0), 4: (0.0, 1.0, 0.0)}
+    sheet.elements = {"M3D4": [(1, (1, 2, 3, 4))], "SPRING1": [(1 + n, (n,)) for n in range(1, 5)]}
+    sheet.add("*ELSET, ELSET=SHEET\n1\n*ELSET, ELSET=SPRINGS\n2, 3, 4, 5\n*SPRING, ELSET=SPRINGS\n3\n0.25\n*MEMBRANE SECTION, ELSET=SHEET, MATERIAL=M\n1.\n"
+              "*MATERIAL, NAME=M\n*ELASTIC\n1e6, 0.\n*BOUNDARY\n1, 1, 2\n2, 2, 2\n*STEP\n*BUCKLE\n1\n*CLOAD\n" +
+              "".join("%d, %d, %g\n" % (n, k, 0.25 * (1 if x[2 - k] > 0.5 else -1)) for n, x in sheet.nodes.items() for k in (1, 2)) + "*END STEP")
+    for name, deck, factor in (("bar", bar, 10.0), ("sheet", sheet, 0.5)):
+        for ranks in (1, 2):
+            close(modes(runner.run(name + "_on_springs", deck, ranks), 1)[0].attrs["eigenvalue"], factor, 1e-5, "load factor of a " + name)
+
+
 def tied_column(runner):
     """A column of two blocks that are tied, whose multipliers take pivots that MUMPS had not foreseen. Meshes that match: the modes of one
     block. A finer mesh on a coarser one: the load factor of CalculiX 2.20 for the same deck (its C3D8I are like ours, but not the same)."""
@@ -321,7 +340,7 @@ def held(runner):
 
 
 CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent,
-                                                strip_buckled, euler_column, tied_column, shaft, sliding, held)}
+                                                strip_buckled, euler_column, springs_buckled, tied_column, shaft, sliding, held)}
 CASES["cantilever"] = cantilever_modes
 
 if __name__ == "__main__":
