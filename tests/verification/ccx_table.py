@@ -33,7 +33,6 @@ NOTES = {
     "beamnldy": "a load that is there at once, in one increment: here the first acceleration is that of the consistent mass; the same deck "
                 "with the load rising within 1e-12 agrees to the digits printed",
     "cube2": "displacements agree to 1.0e-6; cubes in free fall have no stress, what is printed is rounding",
-    "spring5": "one row where the spring is slack again, 7e-7 of the amplitude, is off by 4e-9 of it",
     "dist": "CalculiX lets the rope of 7.2 be 7.2025 at 0.6 before it pulls (1.2e-2, then up to 1.7e-3), and leaves 4.5e-8 where the load is gone",
     "membrane1": "CalculiX makes bricks of the sheet and their shear carries a third of the load (deflection 5.33e-3); sheets here carry "
                  "membrane forces alone (7.08e-3)",

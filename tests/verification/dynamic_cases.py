@@ -439,7 +439,19 @@ U, UR
         check("turn", np.abs(turn[:, 0] - 0.25 * time**2).max(), 0.0, 1e-12)
 
 
-CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body, modal_response, modal_forces, modal_material_damping, moderate_dissipation,
+def modal_fast(balocco, folder):
+    """Modal dynamics of a mass of 6.24e-9, F / k (1 - cos w t), counted in units in which its period is 1.6e-5: exact at every instant."""
+    omega = math.sqrt(1000.0 / 6.24e-9)
+    deck = oscillator([], speed=0.0).replace("*MASS, ELSET=MASS\n1.", "*MASS, ELSET=MASS\n6.24e-9")
+    deck += "*STEP\n*FREQUENCY\n1\n*END STEP\n*STEP, INC=1000\n*MODAL DYNAMIC\n1e-7, 1e-5\n*CLOAD\n2, 1, 3.\n" + SELDOM + HISTORY + "*END STEP\n"
+    for ranks in "12":
+        job = Job("modal_fast_on_" + ranks, balocco, ranks, folder)
+        job.run(deck)
+        time, u = job.history("node_2", "U", 2)
+        check("displacement", np.abs(u[:, 0] / 3e-3 - (1.0 - np.cos(omega * time))).max(), 0.0, 1e-10)
+
+
+CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body, modal_response, modal_forces, modal_material_damping, moderate_dissipation, modal_fast,
                                             growing_increments, lone_masses, stopped_and_resumed, connectors, impact)}
 
 if __name__ == "__main__":
