@@ -5,11 +5,12 @@
 set -u
 
 check() {
-  local binary=$1 ranks=$2 deck=$3 folder status expected troubles=""
+  local binary=$1 ranks=$2 deck=$3 folder status expected troubles="" launcher=()
   folder=$(mktemp -d)
   mkdir "$folder/results"
   expected=$(head -n 1 "$deck" | sed 's/^\*\* expect: //')
-  timeout 20 mpirun --allow-run-as-root --oversubscribe -n "$ranks" "$binary" run "$deck" --output "$folder/results" \
+  [ "$ranks" -eq 1 ] || launcher=(mpirun --allow-run-as-root --oversubscribe -n "$ranks")
+  timeout 20 "${launcher[@]}" "$binary" run "$deck" --output "$folder/results" \
     >"$folder/out" 2>"$folder/err"
   status=$?
   [ $status -eq 2 ] || troubles+="exit status $status instead of 2; "
