@@ -99,43 +99,58 @@ def universal_angles(run):
 
 
 PLACES = {1: (0.0, 0.0, 0.0), 2: (1.0, 0.0, 0.0), 3: (1.0, 1.0, 0.0), 4: (1.0, 1.0, 0.7)}
-CHAINS = {"outwards": "*MPC\nBEAM, 2, 1\nBEAM, 3, 2\nBEAM, 4, 3\n", "inwards": "*MPC\nBEAM, 4, 3\nBEAM, 3, 2\n*MPC\nBEAM, 2, 1\n",
-          "meeting": "*MPC\nBEAM, 2, 1\nBEAM, 2, 3\nBEAM, 4, 3\n"}
-WELDS = "*ELEMENT, TYPE=CONN3D2, ELSET=WELDS\n501, 1, 2\n502, 3, 2\n503, 3, 4\n*CONNECTOR SECTION, ELSET=WELDS\nBEAM\n"
-CHAINS["of connectors"] = WELDS
-ONE_BODY = "*NSET, NSET=REST\n2, 3, 4\n*RIGID BODY, REF NODE=1, TIE NSET=REST\n"
+JOINED = {"one body": "*NSET, NSET=REST{0}\n{2}, {3}, {4}\n*RIGID BODY, REF NODE={1}, TIE NSET=REST{0}\n",
+          "outwards": "*MPC\nBEAM, {2}, {1}\nBEAM, {3}, {2}\nBEAM, {4}, {3}\n",
+          "inwards": "*MPC\nBEAM, {4}, {3}\nBEAM, {3}, {2}\n*MPC\nBEAM, {2}, {1}\n",
+          "meeting": "*MPC\nBEAM, {2}, {1}\nBEAM, {2}, {3}\nBEAM, {4}, {3}\n",
+          "of connectors": "*ELEMENT, TYPE=CONN3D2, ELSET=WELDS\n{0}501, {1}, {2}\n{0}502, {3}, {2}\n{0}503, {3}, {4}\n"
+                           "*CONNECTOR SECTION, ELSET=WELDS\nBEAM\n"}
 
 
-def points(elements):
-    return "*NODE\n" + "".join(f"{node}, {x}, {y}, {z}\n" for node, (x, y, z) in PLACES.items()) + "*NSET, NSET=ALL\n1, 2, 3, 4\n" + elements
+def number(copy, node):
+    """The node of PLACES in one of the copies."""
+    return 10 * copy + node
 
 
-def lengths(job):
+def of_copies(*texts):
+    """A text for each copy of the nodes, the same one where one is given: {1} to {4} are its nodes, {0} its number."""
+    texts = texts if len(texts) > 1 else texts * len(JOINED)
+    return "".join(text.format(copy, *(number(copy, node) for node in PLACES)) for copy, text in enumerate(texts))
+
+
+def points():
+    """Four nodes for each way to join them, apart by numbers alone."""
+    nodes = "".join(f"{number(copy, node)}, {x}, {y}, {z}\n" for copy in range(len(JOINED)) for node, (x, y, z) in PLACES.items())
+    return "*NODE, NSET=ALL\n" + nodes + of_copies(*JOINED.values())
+
+
+def lengths(ways):
     """How far the nodes' distances get from those at the start."""
-    at = {node: np.array(place) + job.history(f"node_{node}", "U")[1] for node, place in PLACES.items()}
+    at = {node: np.array(place) + way for (node, place), way in zip(PLACES.items(), ways)}
     return max(np.abs(np.linalg.norm(at[a] - at[b], axis=1) - math.dist(PLACES[a], PLACES[b])).max() for a in at for b in at if a < b)
 
 
 def rigid_chains(run):
     """Rigid arms from node to node, none of which an element turns: one rigid body, in statics on springs, thrown, and hung up."""
-    masses = "".join(f"*ELEMENT, TYPE=MASS, ELSET=M{node}\n{node}, {node}\n*MASS, ELSET=M{node}\n{0.5 * node}\n" for node in PLACES)
-    springs = "".join(f"*ELEMENT, TYPE=SPRING1, ELSET=K{node}{dof}\n{10 * node + dof}, {node}\n*SPRING, ELSET=K{node}{dof}\n{dof}\n{100.0 * node + 10.0 * dof}\n"
-                      for node in PLACES for dof in (1, 2, 3))
+    mass = lambda node: f"*ELEMENT, TYPE=MASS, ELSET=M{node}\n" + of_copies(f"{{{node}}}, {{{node}}}\n") + f"*MASS, ELSET=M{node}\n{0.5 * node}\n"
+    spring = lambda node, dof: (f"*ELEMENT, TYPE=SPRING1, ELSET=K{node}{dof}\n" + of_copies(f"{{{node}}}{dof}, {{{node}}}\n")
+                                + f"*SPRING, ELSET=K{node}{dof}\n{dof}\n{100.0 * node + 10.0 * dof}\n")
+    masses = "".join(mass(node) for node in PLACES)
+    springs = "".join(spring(node, dof) for node in PLACES for dof in (1, 2, 3))
     thrown = ("*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY\nALL, 3., 0.2, -0.1, 0.3\n0., 0., 0., 1., 2., 3.\n"
-              + explicit_step(1e-4, 0.2, "*CLOAD\n4, 1, 2.\n4, 2, -1.\n", history("ALL", "U", 0.02)))
-    hung = "*BOUNDARY\n1, 1, 3\n" + explicit_step(1e-4, 0.2, GRAVITY, history("ALL", "U", 0.02))
-    static = lambda step: step + "*CLOAD\n4, 1, 20.\n4, 2, -15.\n3, 3, 25.\n" + SHOWN.replace("SHOWN", "ALL")
-    for name, deck, tolerance in (("thrown", points(masses) + "{}" + thrown, 1e-6), ("hung up", points(masses) + "{}" + hung, 1e-6),
-                                  ("on springs", points(springs) + "{}" + static(STEP), 1e-8), ("on springs, linear", points(springs) + "{}" + static(LINEAR), 1e-9)):
-        body = run(deck.format(ONE_BODY), 1)
-        expected = [body.history(f"node_{node}", "U")[1] for node in PLACES]
-        for ranks, (order, chain) in zip((1, 2, 1, 2), CHAINS.items()):
-            job = run(deck.format(chain), ranks)
-            ways = [job.history(f"node_{node}", "U")[1] for node in PLACES]
-            check(f"{name}, {order}: it moves", float(np.abs(expected).max() > 0.03), 1.0, 0.0)
-            check(f"{name}, {order}: as one body", max(np.abs(u - v).max() for u, v in zip(ways, expected)), 0.0, tolerance)
-            if "linear" not in name:
-                check(f"{name}, {order}: distances", lengths(job), 0.0, 1e-12 if "springs" not in name else 1e-9)
+              + explicit_step(1e-4, 0.2, "*CLOAD\n" + of_copies("{4}, 1, 2.\n{4}, 2, -1.\n"), history("ALL", "U", 0.02)))
+    hung = "*BOUNDARY\n" + of_copies("{1}, 1, 3\n") + explicit_step(1e-4, 0.2, GRAVITY, history("ALL", "U", 0.02))
+    static = lambda step: step + "*CLOAD\n" + of_copies("{4}, 1, 20.\n{4}, 2, -15.\n{3}, 3, 25.\n") + SHOWN.replace("SHOWN", "ALL")
+    for name, elements, step, tolerance in (("thrown", masses, thrown, 1e-6), ("hung up", masses, hung, 1e-6),
+                                            ("on springs", springs, static(STEP), 1e-8), ("on springs, linear", springs, static(LINEAR), 1e-9)):
+        for ranks in (1, 2):
+            job = run(points() + elements + step, ranks)
+            all_ways = [[job.history(f"node_{number(copy, node)}", "U")[1] for node in PLACES] for copy in range(len(JOINED))]
+            check(f"{name}: it moves", float(np.abs(all_ways[0]).max() > 0.03), 1.0, 0.0)
+            for order, ways in list(zip(JOINED, all_ways))[1:]:
+                check(f"{name}, {order}: as one body", np.abs(np.array(ways) - all_ways[0]).max(), 0.0, tolerance)
+                if "linear" not in name:
+                    check(f"{name}, {order}: distances", lengths(ways), 0.0, 1e-12 if "springs" not in name else 1e-9)
 
 
 if __name__ == "__main__":
