@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "constraints/face_projection.hpp"
@@ -31,14 +32,44 @@ void read_property(Builder& builder, const Block& block) {
   if (row.ok()) builder.fastener_radius[block.value("NAME")] = radius;
 }
 
+/// How far from its node a weld looks for a surface, and why.
+struct Reach {
+  double length = 0.0;
+  const char* reason = "";
+};
+
 /// A surface that welds join, and its nodes.
 struct Layer {
   const Surface* surface = nullptr;
   FaceProjection faces;
   std::vector<std::int32_t> nodes;
+  Reach reach;  // where no SEARCH RADIUS is given
 };
 
-std::vector<Layer> read_layers(Builder& builder, const Block& block) {
+/// Of the thickest sheet of a surface; 0: it has none.
+double thickest_sheet(const Model& model, const Surface& surface) {
+  double thickest = 0.0;
+  for (const auto& face : surface.faces) {
+    const auto& table = model.elements[face.element.table];
+    if (table.type->section != Section::Kind::shell && table.type->section != Section::Kind::membrane) continue;
+    const auto& section = model.sections[table.section[face.element.row]];
+    double thickness = table.thickness.empty() ? 0.0 : table.thickness[face.element.row];
+    if (section.shell.nodal_thickness && !model.nodes.thickness.empty())
+      for (const auto node : face_nodes(model, face)) thickness = std::max(thickness, model.nodes.thickness[node]);
+    thickest = std::max(thickest, thickness > 0.0 ? thickness : section.thickness);
+  }
+  return thickest;
+}
+
+/// A stack of sheets in contact lies within a few thicknesses of any of them; of solids, only the mesh tells a length.
+Reach reach_of(const Model& model, const Surface& surface, double mean_edge, double weld_radius) {
+  const double thickness = thickest_sheet(model, surface);
+  const Reach of_faces = thickness > 0.0 ? Reach{5.0 * thickness, "5 times the thickness of its sheets"}
+                                         : Reach{mean_edge, "the mean edge of its faces"};
+  return of_faces.length >= weld_radius ? of_faces : Reach{weld_radius, "the radius of the weld"};
+}
+
+std::vector<Layer> read_layers(Builder& builder, const Block& block, double weld_radius) {
   std::vector<Layer> layers;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
@@ -47,7 +78,9 @@ std::vector<Layer> read_layers(Builder& builder, const Block& block) {
       const auto surface = builder.require(builder.surfaces, row.name(field), block, row.location());
       if (!surface) return {};
       const auto& found = builder.model.surfaces[*surface];
-      layers.push_back({&found, FaceProjection(builder.model, found), surface_nodes(builder.model, found)});
+      FaceProjection faces(builder.model, found);
+      const auto reach = reach_of(builder.model, found, faces.mean_edge(), weld_radius);
+      layers.push_back({&found, std::move(faces), surface_nodes(builder.model, found), reach});
     }
   }
   if (layers.size() < 2)
@@ -84,7 +117,7 @@ class Fastener {
         block_(block),
         layers_(std::move(layers)),
         influence_(block.real("RADIUS OF INFLUENCE", radius)),
-        reach_(block.real("SEARCH RADIUS", HUGE_VAL)),
+        search_radius_(block.has("SEARCH RADIUS") ? std::optional(block.real("SEARCH RADIUS", 0.0)) : std::nullopt),
         turns_(turning_nodes(builder.model)) {}
 
   /// A node to which all layers are held.
@@ -106,6 +139,18 @@ class Fastener {
   }
 
  private:
+  void refuse(std::int32_t node, const Layer& layer) const {
+    const auto within = search_radius_ ? fmt::format("its SEARCH RADIUS of {:.4g}", *search_radius_)
+                                       : fmt::format("{:.4g}, which is {}", layer.reach.length, layer.reach.reason);
+    const auto nearest = layer.faces.nearest(builder_.model.nodes.coordinates[node], HUGE_VAL);
+    const auto cure = nearest ? fmt::format(": the nearest one is {:.4g} away; give SEARCH RADIUS={:.2g}, or move the node",
+                                            nearest->distance, 1.1 * nearest->distance)
+                              : std::string("; its faces have no area");
+    builder_.error(block_, block_.location,
+                   fmt::format("the weld at node {} finds no face of {} within {}{}", builder_.model.node_name(node),
+                               layer.surface->name, within, cure));
+  }
+
   const Layer* nearest_layer(std::int32_t node, const Layer* taken) const {
     const Layer* nearest = nullptr;
     double least = HUGE_VAL;
@@ -121,12 +166,9 @@ class Fastener {
 
   /// @return false, with an error, where no face is within reach
   bool hold(std::int32_t node, const Layer& layer) {
-    const auto place = layer.faces.nearest(builder_.model.nodes.coordinates[node], reach_);
+    const auto place = layer.faces.nearest(builder_.model.nodes.coordinates[node], search_radius_.value_or(layer.reach.length));
     if (!place) {
-      builder_.error(block_, block_.location,
-                     fmt::format("the weld at node {} finds no face of {} within its SEARCH RADIUS of {:.4g}; give a "
-                                 "greater one, or move the node",
-                                 builder_.model.node_name(node), layer.surface->name, reach_));
+      refuse(node, layer);
       return false;
     }
     builder_.model.constraints.push_back({held_by(builder_.model, layer, node, *place, influence_, turns_), "*FASTENER",
@@ -137,7 +179,8 @@ class Fastener {
   Builder& builder_;
   const Block& block_;
   const std::vector<Layer> layers_;
-  const double influence_, reach_;
+  const double influence_;
+  const std::optional<double> search_radius_;
   const std::vector<bool> turns_;
   std::map<std::int32_t, const Layer*> layer_of_;  // of nodes of connectors
 };
@@ -178,7 +221,7 @@ void read_fastener(Builder& builder, const Block& block) {
   if (!block.lines.empty() && parse_real(Row(builder, block, block.lines[0]).text(0)))
     return builder.error(block, block.lines[0].location,
                          "welds are projected along the normals of the faces; leave the line of the direction empty");
-  auto layers = read_layers(builder, block);
+  auto layers = read_layers(builder, block, property->second);
   if (layers.empty()) return;
   Fastener fastener(builder, block, std::move(layers), property->second);
   if (block.has("ELSET")) return add_connectors(builder, block, fastener);

@@ -272,5 +272,30 @@ def stacked_sheets(run):
             check("conditions that follow from others are told", float("from other constraints" in jobs[0].log()), 1.0, 0.0)
 
 
+def coarse_stack(places, weld, extra=""):
+    """Sheets of two by two elements of 50 mm at heights, and a node off the middle of them at the height `weld` that holds all."""
+    nodes = [f"{100 * sheet + 3 * i + j + 1}, {50.0 * i}, {50.0 * j}, {z}" for sheet, z in enumerate(places) for i in range(3) for j in range(3)]
+    shells = [f"*ELEMENT, TYPE=S4R, ELSET=SHEET{sheet}\n" + "".join(
+        f"{at}, {at}, {at + 3}, {at + 4}, {at + 1}\n" for at in (100 * sheet + 3 * i + j + 1 for i in (0, 1) for j in (0, 1))) for sheet in range(len(places))]
+    names = [f"SHEET{sheet}" for sheet in range(len(places))]
+    return "\n".join(["*NODE", *nodes, f"900, 37., 61., {weld}", "".join(shells) + "*ELSET, ELSET=SHEETS\n" + ", ".join(names),
+                      *[f"*SURFACE, NAME={name}\n{name}, SPOS" for name in names], "*NSET, NSET=SPOT\n900", "*NSET, NSET=HELD, GENERATE\n1, 9",
+                      f"*FASTENER PROPERTY, NAME=P\n3.\n*FASTENER, PROPERTY=P, REFERENCE NODE SET=SPOT{extra}\n" + ", ".join(names),
+                      "*MATERIAL, NAME=STEEL\n*ELASTIC\n210e3, 0.3", "*SHELL SECTION, ELSET=SHEETS, MATERIAL=STEEL\n0.8",
+                      "*STEP\n*STATIC\n1., 1.\n*BOUNDARY\nHELD, 1, 6\n*CLOAD", *[f"{100 * sheet + 9}, {sheet}, 2." for sheet in range(1, len(places))],
+                      "*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=HELD\nRF\n*END STEP\n"])
+
+
+def reach(run):
+    """Without a SEARCH RADIUS a weld reaches all sheets of a stack from its lowest one, on meshes much coarser than the sheets are apart;
+    sheets farther away need one."""
+    for ranks, places, weld, extra in ((1, (0.0, 1.0), 0.0, ""), (2, (0.0, 1.0, 2.0), 0.0, ""), (1, (0.0, 12.0), 0.0, ", SEARCH RADIUS=15."),
+                                       (2, (0.0, 1.0, 2.0), 2.0, "")):
+        job = run(coarse_stack(places, weld, extra), ranks)
+        held = sum(job.history(f"node_{node}", "RF")[1][-1] for node in range(1, 10))
+        loads = -2.0 * np.array([len(places) > sheet for sheet in (1, 2, 3)])
+        check(f"the lowest of {len(places)} sheets holds the others", np.abs(held - loads).max(), 0.0, 1e-9)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (closed_section, tied_sheets, tumbling_star, sheets_thrown, stacked_sheets)})
+    run_case({case.__name__: case for case in (closed_section, tied_sheets, tumbling_star, sheets_thrown, stacked_sheets, reach)})
