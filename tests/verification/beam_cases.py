@@ -9,7 +9,7 @@ import sys
 import h5py
 import numpy as np
 
-from explicit_cases import Job, check, check_energy, failures
+from job import Job, check, check_energy, failures
 
 YOUNG, DENSITY, WIDTH, HEIGHT = 210e9, 7850.0, 0.02, 0.01
 

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from explicit_cases import Job, check, check_energy, run_case
+from job import Job, check, check_energy, run_case
 from joint_cases import deck_of_rods, rods
 from motion_decks import G, GRAVITY, explicit_step, history, integrate
 
@@ -133,16 +133,14 @@ def rubbing_slider(run):
         check("friction less", last(job, "CSF", 3)[0], 15.0, 1e-8)
 
 
-def slider_crank(run):
-    """The slider of a crank that a motion of its hinge turns, in statics and in time: r cos a + sqrt(l^2 - r^2 sin^2 a)."""
-    r, l, speed = 0.3, 0.8, 5.0
-    points = [(0.0, 0.0), (r, 0.0), (r + l, 0.0)]
-    lines, centres = rods(points)
-    lines["node"].append(f"3, {r + l!r}, 0., 0.\n4, {r + l!r}, 0., 0.")
-    extra = f"""*ELEMENT, TYPE=MASS, ELSET=SLIDER
+def slider_at(place, lines, mass=0.5, behavior=""):
+    """A slider at the end of the second rod, node 4 on the x axis, which a translator guides: adds its nodes to the lines of the rods and
+    gives the rest of its deck. Keywords of `behavior` belong to the guide."""
+    lines["node"].append(f"3, {place!r}, 0., 0.\n4, {place!r}, 0., 0.")
+    return f"""*ELEMENT, TYPE=MASS, ELSET=SLIDER
 7000, 4
 *MASS, ELSET=SLIDER
-1.
+{mass}
 *ELEMENT, TYPE=ROTARYI, ELSET=SLIDERI
 7003, 4
 *ROTARY INERTIA, ELSET=SLIDERI
@@ -157,14 +155,21 @@ def slider_crank(run):
 1., 0., 0., 0., 1., 0.
 *CONNECTOR SECTION, ELSET=PIN
 JOIN
-*CONNECTOR SECTION, ELSET=GUIDE
+*CONNECTOR BEHAVIOR, NAME=GUIDE
+{behavior}*CONNECTOR SECTION, ELSET=GUIDE, BEHAVIOR=GUIDE
 TRANSLATOR
 ALONG_X
-*NSET, NSET=SLIDER
-4
 *BOUNDARY
 3, 1, 6
 """
+
+
+def slider_crank(run):
+    """The slider of a crank that a motion of its hinge turns, in statics and in time: r cos a + sqrt(l^2 - r^2 sin^2 a)."""
+    r, l, speed = 0.3, 0.8, 5.0
+    points = [(0.0, 0.0), (r, 0.0), (r + l, 0.0)]
+    lines, centres = rods(points)
+    extra = slider_at(r + l, lines, mass=1.0) + "*NSET, NSET=SLIDER\n4\n"
     place = lambda a: r * np.cos(a) + np.sqrt(l**2 - (r * np.sin(a))**2)
     moves = lambda duration: explicit_step(1e-4, duration, f"*CONNECTOR MOTION, TYPE=VELOCITY\nCRANK, 4, {speed}\n", history("SLIDER", "U1", 0.01))
     turns = f"*STEP, NLGEOM, INC=200\n*STATIC\n0.05, 1., 1e-6, 0.05\n*CONNECTOR MOTION\nCRANK, 4, {2.5 * math.pi!r}\n*OUTPUT, HISTORY, FREQUENCY=1\n*NODE OUTPUT, NSET=SLIDER\nU1\n*END STEP\n"

@@ -5,7 +5,7 @@ import re
 
 import numpy as np
 
-from explicit_cases import Job, check, check_energy, run_case
+from job import Job, check, check_energy, run_case
 from motion_decks import explicit_step, history
 
 

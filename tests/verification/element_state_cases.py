@@ -5,7 +5,7 @@ import tempfile
 
 import numpy as np
 
-from explicit_cases import UNIT_CUBE, check, run_case
+from job import UNIT_CUBE, check, run_case
 from static_model import brick
 
 FIELD = """*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE

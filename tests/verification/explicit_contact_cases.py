@@ -7,7 +7,7 @@ import sys
 
 import numpy as np
 
-from explicit_cases import Job, check, check_energy, failures
+from job import Job, check, check_energy, failures
 
 
 def block(nx, ny, nz, size, element="C3D8R", height=0.0, law="*ELASTIC\n10., 0.3", density=1e-9, friction=0.0):

@@ -7,7 +7,7 @@ import subprocess
 import h5py
 import numpy as np
 
-from explicit_cases import UNIT_CUBE, check, run_case
+from job import UNIT_CUBE, check, run_case
 from launch import on_ranks
 
 YOUNG, YIELD, FAILURE, DENSITY = 200e3, 400.0, 0.05, 7.8e-9

@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from explicit_cases import check, check_energy, run_case
+from job import check, check_energy, run_case
 
 
 def elastica(load, steps=20000):

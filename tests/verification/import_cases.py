@@ -7,7 +7,7 @@ import sys
 import numpy as np
 
 from constraint_cases import KINEMATIC, bar_with_end
-from explicit_cases import Job, check, failures
+from job import Job, check, failures
 
 BUSHING = "\n".join(["*NODE\n1002, 1.2, 0.05, 0.05", "*ELEMENT, TYPE=CONN3D2, ELSET=BUSH\n9001, 1000, 1002",
                      "*ELEMENT, TYPE=MASS, ELSET=END_MASS\n9002, 1002\n*MASS, ELSET=END_MASS\n5.",

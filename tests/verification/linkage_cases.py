@@ -5,8 +5,8 @@ import re
 
 import numpy as np
 
-from connector_cases import last
-from explicit_cases import check, check_energy, run_case
+from connector_cases import last, slider_at
+from job import check, check_energy, run_case
 from joint_cases import deck_of_rods, rods
 from motion_decks import G, explicit_step, history, integrate
 
@@ -165,32 +165,7 @@ def crank_deck(start, r, l, spring=""):
     rod, slider, _, _ = crank_geometry(r, l)(start)
     knee = (r * math.cos(start), r * math.sin(start))
     lines, centres = rods([(0.0, 0.0), knee, (float(slider), 0.0)])
-    lines["node"].append(f"3, {float(slider)!r}, 0., 0.\n4, {float(slider)!r}, 0., 0.")
-    return lines, centres, f"""*ELEMENT, TYPE=MASS, ELSET=SLIDER
-7000, 4
-*MASS, ELSET=SLIDER
-0.5
-*ELEMENT, TYPE=ROTARYI, ELSET=SLIDERI
-7003, 4
-*ROTARY INERTIA, ELSET=SLIDERI
-0.01, 0.01, 0.01
-*ELEMENT, TYPE=CONN3D2, ELSET=PIN
-7001, 22, 4
-*ELEMENT, TYPE=CONN3D2, ELSET=GUIDE
-7002, 3, 4
-*ELSET, ELSET=CRANK
-3000
-*ORIENTATION, NAME=ALONG_X
-1., 0., 0., 0., 1., 0.
-*CONNECTOR SECTION, ELSET=PIN
-JOIN
-*CONNECTOR BEHAVIOR, NAME=GUIDE
-{spring}*CONNECTOR SECTION, ELSET=GUIDE, BEHAVIOR=GUIDE
-TRANSLATOR
-ALONG_X
-*BOUNDARY
-3, 1, 6
-"""
+    return lines, centres, slider_at(float(slider), lines, behavior=spring)
 
 
 def thrown_crank(run):

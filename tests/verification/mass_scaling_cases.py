@@ -11,7 +11,7 @@ import sys
 import numpy as np
 
 from constraint_cases import KINEMATIC, bar_with_end
-from explicit_cases import UNIT_CUBE, Job, check, failures
+from job import UNIT_CUBE, Job, check, failures
 from import_cases import BUSHING, LOADS
 
 STEEL = "*MATERIAL, NAME=STEEL\n*ELASTIC\n2.1E11, 0.3\n*DENSITY\n7800.\n"

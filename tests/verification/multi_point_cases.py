@@ -5,7 +5,7 @@ import math
 
 import numpy as np
 
-from explicit_cases import check, check_energy, run_case
+from job import check, check_energy, run_case
 from motion_decks import GRAVITY, explicit_step, history
 
 STEP = "*STEP, NLGEOM, INC=200\n*STATIC\n0.1, 1., 1e-6, 0.1\n"

@@ -10,7 +10,7 @@ import sys
 import h5py
 import numpy as np
 
-from explicit_cases import Job, check, failures
+from job import Job, check, failures
 
 MODEL = "*NODE, NSET=ALL\n" + "".join(f"{4 * k + i + 1}, {x}, {y}, {z}\n" for k, z in enumerate((0.0, 1.0, 2.0)) for i, (x, y) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))))
 MODEL += """*ELEMENT, TYPE=C3D8R, ELSET=BAR

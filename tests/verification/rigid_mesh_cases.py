@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from explicit_cases import check, run_case
+from job import check, run_case
 
 OUTPUT = """*OUTPUT, FIELD, NUMBER INTERVAL=2, PRECISION=DOUBLE
 *NODE OUTPUT

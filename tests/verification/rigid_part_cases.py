@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from explicit_cases import Job, check, check_energy, run_case
+from job import Job, check, check_energy, run_case
 from motion_decks import G, explicit_step, history
 
 

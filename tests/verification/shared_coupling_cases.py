@@ -5,7 +5,7 @@ Whatever shares nodes, forces and moments at the reference nodes arrive in sum a
 """
 import numpy as np
 
-from explicit_cases import check, run_case
+from job import check, run_case
 from motion_decks import explicit_step
 
 LOADS = {1000: ((1.0, 0.5, -2.0), (0.1, 0.2, 0.3)), 1001: ((-0.3, 0.4, 0.6), (0.0, 0.1, 0.0))}  # force and moment at reference nodes

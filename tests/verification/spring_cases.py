@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 
-from explicit_cases import check, check_energy, run_case
+from job import check, check_energy, run_case
 from motion_decks import explicit_step, integrate
 
 HISTORY = """*OUTPUT, HISTORY, FREQUENCY=1

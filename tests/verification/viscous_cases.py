@@ -2,7 +2,7 @@
 """Laws that know time: Prony series and yield that depends on rates, explicit and implicit: viscous_cases.py CASE BALOCCO FOLDER."""
 import numpy as np
 
-from explicit_cases import check, run_case
+from job import check, run_case
 
 SOLIDS, SHELLS, MEMBRANES, BARS = ("C3D8", "C3D8R"), ("S4R", "S4"), ("M3D4",), ("T3D2", "B31")
 SQUARE = ((0, 0), (1, 0), (1, 1), (0, 1))

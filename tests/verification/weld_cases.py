@@ -2,7 +2,7 @@
 """Welded sheets against closed forms and against sheets that share their nodes: weld_cases.py CASE BALOCCO FOLDER."""
 import numpy as np
 
-from explicit_cases import check, check_energy, run_case
+from job import check, check_energy, run_case
 from motion_decks import explicit_step, history, integrate
 
 YOUNG, POISSON, THICKNESS = 210e3, 0.3, 1.0
