@@ -14,6 +14,7 @@
 #include "deck/schedule.hpp"
 #include "deck/shell_sections.hpp"
 #include "deck/tokens.hpp"
+#include "deck/updated_stresses.hpp"
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
 #include "model/rigid_constraints.hpp"
@@ -109,7 +110,9 @@ ReadResult read_deck(const std::string& path, const FileLoader& loader, const Re
   if (const auto& import = builder.model.state_import;
       import && import->update && options.move_imported_nodes && diagnostics.number_of_errors() == 0)
     options.move_imported_nodes(builder.model);
-  for (const Phase phase : {Phase::sections, Phase::constraints}) run_phase(builder, tasks, phase);
+  run_phase(builder, tasks, Phase::sections);
+  keep_updated_stresses(builder);
+  run_phase(builder, tasks, Phase::constraints);
   hold_rotations(builder);
   run_phase(builder, tasks, Phase::history);
   throw_if_wrong(diagnostics, tokens.files);

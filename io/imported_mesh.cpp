@@ -33,4 +33,17 @@ void move_imported_nodes(const std::string& path, ImportedShape shape, Model& mo
   }
 }
 
+Model model_before_update(const std::string& path, const Model& model) {
+  const ModelIdentity identity(*open_checkpoint(path));
+  Model before = model;
+  before.state_import->update = false;
+  before.initial_fields.clear();
+  for (const auto row : before.state_import->nodes)
+    before.nodes.coordinates[row] = identity.coordinates(identity.row_of_node(model.nodes.id[row]));
+  for (const auto& element : before.state_import->elements)
+    if (const auto section = before.elements[element.table].section[element.row]; section >= 0)
+      before.sections[section].initially_stressed = false;
+  return before;
+}
+
 }  // namespace balocco

@@ -15,4 +15,7 @@ enum class ImportedShape { positions_of_other_job, own_coordinates };
 /// @throws InputError where the other job does not have the imported nodes and elements, or another mesh there
 void move_imported_nodes(const std::string& path, ImportedShape shape, Model& model);
 
+/// *IMPORT, STATE=YES, UPDATE=YES: the model with the reference configuration, and the sections free of stress, of the other job.
+Model model_before_update(const std::string& path, const Model& model);
+
 }  // namespace balocco

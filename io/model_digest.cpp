@@ -96,6 +96,7 @@ std::uint64_t digest_of_section(const Model& model, const Section& section) {
   digest.add(section.thickness);
   add_material(digest, model, section.material);
   for (const auto& ply : section.plies) add_material(digest, model, ply.material);
+  if (section.initially_stressed) digest.add(std::string_view("initially stressed"));  // points have more history
   return digest.value();
 }
 

@@ -33,15 +33,19 @@ class Importer {
       file_ = open_checkpoint(path_);
       read_header();
       identity_.emplace(*file_);
+      if (import_.update) return;  // the nodes have been compared before they were moved; constraints start anew
       ways_ = refuse_other_nodes(*identity_, path_, model_);
       refuse_other_elements(*identity_, path_, model_, ImportedSections::same);
       read_rows_of_constraints();
     });
     ParallelFile tables(path_, communicator_, ParallelFile::Mode::read);
     read_nodes(tables);
-    read_histories(tables);
-    read_contact(tables);
+    if (!import_.update) {
+      read_histories(tables);
+      read_contact(tables);
+    }
     place_bodies();
+    if (import_.update) forget_motion();
     return fmt::format("Imported from {} (end of step {}): {} nodes, {} elements, {} of {} rigid bodies go on", path_, old_step_, import_.nodes.size(),
                        import_.elements.size(), bodies_that_go_on_, model_.rigid_bodies.size());
   }
@@ -63,6 +67,7 @@ class Importer {
   void read_histories(ParallelFile& tables);
   void read_contact(ParallelFile& tables);
   void place_bodies();
+  void forget_motion();
   std::vector<Attachment> go_on(std::int64_t old_body, std::size_t body, const RigidBodyState& motion);
   std::vector<std::int32_t> take_over_nodes(std::int64_t old_body, std::size_t body);
   void place_new_bodies(const std::vector<std::size_t>& bodies);
@@ -267,6 +272,19 @@ void Importer::place_bodies() {
   for (std::size_t i = 0; i < attachments.size(); ++i) {
     const double* const x = &positions[3 * i];
     attach(state_.rigid_bodies[attachments[i].body], rows[i], attachments[i].node.tie, {x[0], x[1], x[2]});
+  }
+}
+
+/// What has moved stands in its reference configuration: bodies carry their nodes from where these are, and no work is done yet.
+void Importer::forget_motion() {
+  for (std::size_t i = 0; i < state_.orientation.size(); ++i) state_.orientation[i] = i % 4 == 0 ? 1.0 : 0.0;
+  std::ranges::fill(state_.rotation, 0.0);
+  std::ranges::fill(state_.nodal_work, NodalWork{});
+  for (auto& body : state_.rigid_bodies) {
+    const auto turn = rotation_matrix(body);
+    for (auto& node : body.nodes) node.offset = rigid_arm(turn, node);
+    body.orientation = {1.0, 0.0, 0.0, 0.0};
+    body.rotation = {};
   }
 }
 

@@ -26,6 +26,7 @@
 #include "results_diff.hpp"
 #include "signals.hpp"
 #include "state_import.hpp"
+#include "updated_stresses.hpp"
 
 namespace balocco {
 namespace {
@@ -74,6 +75,14 @@ ReadResult read_whole(const Command& command, const FileLoader& loader) {
   return read_deck(command.deck, loader, options);
 }
 
+/// *IMPORT, STATE=YES, UPDATE=YES: the stresses are those of the other job's elements in their own reference configuration.
+PointStresses stresses_before_update(const std::string& path, const Analysis& updated) {
+  const Model model = model_before_update(path, updated.model);
+  Analysis before(model, updated.communicator);
+  import_state(path, model, updated.communicator, before.domain, before.element_groups, before.current);
+  return stresses_of_imported_solids(before);
+}
+
 /// Where *RESTART, READ goes on, or at time zero: whole, or what *IMPORT names.
 void start_from_another_job(const Command& command, Analysis& analysis) {
   const auto arguments = [&](auto import) {
@@ -86,6 +95,7 @@ void start_from_another_job(const Command& command, Analysis& analysis) {
       fmt::print("Imported from {}: the places of {} nodes, without stress\n", command.import_from, import->nodes.size());
     return;
   } else if (import) {
+    if (import->update) start_from_stresses(stresses_before_update(command.import_from, analysis), analysis);
     const auto summary = arguments(import_state);
     if (analysis.communicator.is_root()) fmt::print("{}\n", summary);
   } else {

@@ -84,12 +84,6 @@ void read_import(Builder& builder, const Block& block) {
                          "the mesh is missing: a checkpoint holds the state alone; say nodes, elements and sections as the first deck did, "
                          "by *INCLUDE, INPUT=FIRST.inp or what of it they stand in, before this line");
   const bool state = block.value("STATE", "YES") == "YES", update = block.value("UPDATE") == "YES";
-  if (state && update)
-    builder.error(
-        block, block.location,
-        "UPDATE=YES with STATE=YES is not supported: laws here find stresses from the deformation since the reference "
-        "configuration, so that stresses go on exactly with UPDATE=NO alone; import with UPDATE=NO, or the mesh alone with "
-        "STATE=NO");
   if (!state && !update)
     builder.error(block, block.location,
                   "STATE=NO with UPDATE=NO is not supported: elements here would find the stresses of the deformation that is "
@@ -97,7 +91,10 @@ void read_import(Builder& builder, const Block& block) {
   for (const char* parameter : {"INCREMENT", "INTERVAL", "ITERATION"})
     if (block.has(parameter))
       builder.error(block, block.location,
-                    std::string(parameter) + ": a checkpoint holds the last state of its job alone; leave it out, or end that job there");
+                    std::string(parameter) +
+                      ": of the checkpoints that a job writes (*RESTART, WRITE, FREQUENCY= or NUMBER INTERVAL=) it keeps the last one alone; "
+                      "leave it out, and end that job where its state is to be taken: after a step by --until STEP, within one by a line "
+                      "`stop` in JOB.ctl or a *STEP that ends there");
   if (block.lines.empty()) builder.error(block, block.location, "sets of elements to import are missing; name them on data lines");
   const auto step = block.has("STEP") ? std::optional(static_cast<std::int32_t>(block.integer("STEP", 0))) : std::nullopt;
   if (const auto& before = builder.model.state_import; before && !is_of_one_state(*before, state, update, step))
@@ -110,6 +107,8 @@ void read_import(Builder& builder, const Block& block) {
   auto part = elements_of(builder, block);
   part.element_shift = block.integer("ELEMENT SHIFT", 0);
   part.node_shift = block.integer("SHIFT NODES", 0);
+  if (state && update && (part.element_shift != 0 || part.node_shift != 0))
+    return builder.error(block, block.location, "copies (ELEMENT SHIFT, SHIFT NODES) go on from their state with UPDATE=NO alone; give that");
   take_over(builder, block, std::move(part), import);
 }
 

@@ -149,6 +149,90 @@ def importing_the_mesh(balocco, folder):
     check("another step is told", float("not of the end of step 2" in told), 1.0, 0.0)
 
 
+ELEMENTS_TOO = "U, RF\n*ELEMENT OUTPUT\nS, LE\n*END STEP"
+
+
+def updating_the_reference(balocco, folder):
+    """STATE=YES, UPDATE=YES: a stretched column counts displacements and strains from where it stands, and has its stress there; it takes
+    the force that it took, more by its stiffness as it is pulled on; what moves goes on with its velocity."""
+    folder = pathlib.Path(folder)
+    shown = lambda text: text.replace("U, RF\n*END STEP", ELEMENTS_TOO)
+    last = lambda job, kind, variable, frame=-1, step=1: job.element(kind, variable, frame, step)
+    for kind in ("C3D8I", "C3D8"):
+        column = COLUMN.replace("C3D8R", kind)
+        source = Job(f"stretched_{kind}", balocco, "1", folder)
+        source.run(column + shown(pulled(0.25)))
+        stress = last(source, kind, "S")
+        asked = column + "*IMPORT, STATE=YES, UPDATE=YES, STEP=1\nCOLUMN\n" + shown(pulled(0.0, "-1")) + shown(pulled(1e-6, "-2"))
+        arguments = ("--import", str(folder / f"stretched_{kind}.ckpt.h5"))
+        for name, ranks, parts in (("1", "1", (arguments,)), ("2", "2", (arguments,)), ("in_two", "1", ((*arguments, "--until", "PULL-1"), ("--restart",)))):
+            job = Job(f"on_{name}_{kind}", balocco, ranks, folder)
+            for part in parts:
+                job.run(asked, arguments=part)
+            words = f"{kind}, {name}"
+            check(f"{words}: height", job.mesh(kind)[0][:, 2].max(), 1.25, 1e-12)
+            check(f"{words}: displacements count from there", np.abs(job.frame("U", -1)).max(), 0.0, 1e-12)
+            check(f"{words}: strains too", np.abs(last(job, kind, "LE")).max(), 0.0, 1e-12)
+            check(f"{words}: stress goes on", np.abs(last(job, kind, "S") - stress).max() / np.abs(stress).max(), 0.0, 1e-9)
+            force, more = (job.frame("RF", -1, step)[8:, 2].sum() for step in (1, 2))
+            check(f"{words}: force", force, source.frame("RF", -1)[8:, 2].sum(), 1e-9)
+            check(f"{words}: stiffness", more - force, (1e6 + stress[0][2]) * 1e-6 / 1.25, 1e-5)
+
+    for kind in ("C3D8", "C3D8I"):  # strains that vary within elements: their mean dilatation and modes are those of the new shape
+        bar = bar_with_end(KINEMATIC, 1, "*CLOAD\n1000, 2, 1e6\n", nlgeom=", NLGEOM", element=kind)
+        bar = bar.replace("*OUTPUT, HISTORY", "*OUTPUT, FIELD, FREQUENCY=99, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*OUTPUT, HISTORY")
+        source = Job(f"bent_{kind}", balocco, "1", folder)
+        source.run(bar)
+        held = Job(f"held_{kind}", balocco, "2", folder)
+        held.run(bar.replace("*STEP", "*IMPORT, UPDATE=YES\nBAR\n*IMPORT NSET\nEND\n*STEP", 1), arguments=("--import", str(folder / f"bent_{kind}.ckpt.h5")))
+        bent, moved = (np.abs(job.frame("U", -1)).max() for job in (source, held))
+        check(f"{kind}: it is bent", float(bent > 0.1), 1.0, 0.0)
+        check(f"{kind}: a bent bar stays", moved / bent, 0.0, 1e-3)
+
+    thrown = "*STEP\n*DYNAMIC, EXPLICIT\n, 0.01\n*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE\n*NODE OUTPUT\nU\n*END STEP\n"
+    full = COLUMN.replace("C3D8R", "C3D8")
+    Job("thrown", balocco, "1", folder).run(full + "*INITIAL CONDITIONS, TYPE=VELOCITY\nALL, 1, 2.\n" + thrown)
+    source = ("--import", str(folder / "thrown.ckpt.h5"))
+    asked = full + "*IMPORT, UPDATE=YES\nCOLUMN\n" + thrown
+    for ranks in ("1", "2"):
+        job = Job(f"flying_{ranks}", balocco, ranks, folder)
+        job.run(asked, arguments=source)
+        check(f"place, {ranks} ranks", job.mesh("C3D8")[0][:, 0].min(), 0.02, 1e-9)
+        check(f"way, {ranks} ranks", np.abs(job.frame("U", -1) - (0.02, 0.0, 0.0)).max(), 0.0, 1e-9)
+
+    def told(name, text, words):
+        check(name, float(words in Job("refused", balocco, "1", folder).run(text, expected_status=2, arguments=source)), 1.0, 0.0)
+
+    told("rubber", asked.replace("*ELASTIC\n1E6, 0.", "*HYPERELASTIC, NEO HOOKE\n1E5, 1E-6"), "C3D8 element 1 cannot go on with its stress, since the law of")
+    told("metal", asked.replace("1E6, 0.\n", "1E6, 0.\n*PLASTIC\n1E4, 0.\n"), "its material RUBBER yields or relaxes")
+    told("directions", asked.replace("MATERIAL=RUBBER\n", "MATERIAL=RUBBER, ORIENTATION=O\n*ORIENTATION, NAME=O\n0., 1., 0., -1., 0., 0.\n", 1),
+         "its section has an ORIENTATION")
+    told("other increments", asked.replace("UPDATE=YES", "UPDATE=YES, STEP=1, INCREMENT=3"), "it keeps the last one alone")
+
+
+def updating_bodies(balocco, folder):
+    """UPDATE=YES: a rigid body that has been turned counts its turns from there, and its nodes go where it goes."""
+    full = COLUMN.replace("C3D8R", "C3D8") + "*NODE\n" + "".join(
+        f"{100 + i}, {x}, {y}, -1.\n{110 + i}, {x}, {y}, -2.\n" for i, (x, y) in enumerate(((0, 0), (1, 0), (1, 1), (0, 1))))
+    full += "*ELEMENT, TYPE=C3D8, ELSET=FOOT\n10, 110, 111, 112, 113, 100, 101, 102, 103\n*SOLID SECTION, ELSET=FOOT, MATERIAL=RUBBER\n"
+    full += "*NODE, NSET=REFERENCE\n200, 0.5, 0.5, -1.5\n*RIGID BODY, REF NODE=200, ELSET=FOOT, TIE NSET=BOTTOM\n"
+    turned = pulled(0.1).replace("BOTTOM, 1, 3\n", "REFERENCE, 1, 3\nREFERENCE, 5, 6\nREFERENCE, 4, 4, 0.4\n").replace("TOP, 1, 2\nTOP, 3, 3, 0.1\n", "")
+    source = Job("turned", balocco, "1", folder)
+    source.run(full + turned)
+    move = ("*STEP\n*DYNAMIC, EXPLICIT\n, 0.01\n*BOUNDARY, TYPE=VELOCITY\nREFERENCE, 1, 2\nREFERENCE, 5, 6\nREFERENCE, 4, 4, 10.\nREFERENCE, 3, 3, 1.\n"
+            "*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE\n*NODE OUTPUT\nU, UR\n*END STEP\n")
+    cosine, sine = np.cos(0.1), np.sin(0.1)
+    turn = np.array([[1.0, 0.0, 0.0], [0.0, cosine, -sine], [0.0, sine, cosine]])
+    for ranks in ("1", "2"):
+        job = Job(f"on_{ranks}", balocco, ranks, folder)
+        job.run(full + "*IMPORT, UPDATE=YES\nCOLUMN, FOOT\n*IMPORT NSET\nREFERENCE\n" + move, arguments=("--import", str(pathlib.Path(folder) / "turned.ckpt.h5")))
+        places, foot = job.mesh("C3D8")[0], slice(12, 20)
+        check(f"they stand where they were left, {ranks} ranks", np.abs(places - source.mesh("C3D8")[0] - source.frame("U", -1)).max(), 0.0, 1e-14)
+        arms = places[foot] - places[20]
+        check("nodes go with the body", np.abs(job.frame("U", -1)[foot] - (arms @ turn.T - arms + (0.0, 0.0, 0.01))).max(), 0.0, 1e-12)
+        check("its turn", np.abs(job.frame("UR", -1)[20] - (0.1, 0.0, 0.0)).max(), 0.0, 1e-12)
+
+
 def importing_copies(balocco, folder):
     """Columns elsewhere, with other numbers, start from the state of one: its displacements and forces, but for rounding."""
     def column(shift, place):
@@ -203,5 +287,5 @@ def bodies_keep_their_nodes(balocco, folder):
 
 
 if __name__ == "__main__":
-    {case.__name__: case for case in (driving_from_an_equilibrium, importing_parts, importing_the_mesh, importing_copies, bodies_keep_their_nodes)}[sys.argv[1]](*sys.argv[2:])
+    {case.__name__: case for case in (driving_from_an_equilibrium, importing_parts, importing_the_mesh, updating_the_reference, updating_bodies, importing_copies, bodies_keep_their_nodes)}[sys.argv[1]](*sys.argv[2:])
     sys.exit(1 if failures else 0)
