@@ -1,6 +1,8 @@
 // *NSET *ELSET.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "deck/builder.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
@@ -74,7 +76,8 @@ void collect_generated(Builder& builder, const Block& block, bool of_nodes, Gene
     const auto range = range_of(builder, block, line);
     if (!range) continue;
     const std::size_t before = nodes.size() + elements.size();
-    for (std::int64_t id = range->first; id <= range->last; id += range->increment) {
+    const auto last = std::min(range->last, of_nodes ? std::max(builder.scope->largest_node, greatest) : builder.scope->largest_element);
+    for (std::int64_t id = range->first; id <= last; id += range->increment) {
       if (of_nodes) {
         if (const auto row = builder.node(id))
           nodes.push_back(*row);
