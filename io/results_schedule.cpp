@@ -18,7 +18,7 @@ Schedule Schedule::every(double interval, double duration) {
   Schedule schedule;
   schedule.duration_ = duration;
   schedule.tolerance_ = 1e-9 * duration;
-  schedule.interval_ = interval;
+  schedule.interval_ = interval > 0.0 ? std::max(interval, schedule.tolerance_) : 0.0;  // marks nearer than that are one
   return schedule;
 }
 
@@ -86,6 +86,9 @@ bool Schedule::due(double step_time, std::int64_t increment, bool finished) cons
 
 void Schedule::pass(double step_time) {
   if (increments_ > 0) return;
+  const double spacing = interval_ > 0.0 ? interval_ : count_ > 0 ? duration_ / static_cast<double>(count_) : 0.0;
+  if (spacing > 0.0)  // a leap over most of what may be 1e9 marks
+    next_index_ = std::max(next_index_, static_cast<std::int64_t>(step_time / spacing) - 1);
   while (mark(next_index_) <= step_time + tolerance_ && mark(next_index_) < duration_) ++next_index_;
 }
 

@@ -365,10 +365,13 @@ def first_increment(job):
     """What is prescribed holds from the first increment on, also where it is the only one; a displacement starts as fast as it goes."""
     # A range of ids takes no longer than there are nodes.
     deck = FIRST_INCREMENT.replace("*ELEMENT", "*NSET, NSET=ENDS, GENERATE\n1, 9000000000000000000\n*ELEMENT", 1)
+    # Frames at each of very many times are frames at all increments.
+    deck = deck.replace("*OUTPUT, HISTORY", "*OUTPUT, FIELD, TIME INTERVAL=1e-18\n*NODE OUTPUT\nU\n*OUTPUT, HISTORY")
     for increments in (1, 5):
         job.run(deck.replace("DT", repr(0.5 / increments), 1))
         time, ramp = job.history("node_1", "U1")
         check("increments", len(time), increments + 1, 0.0)
+        check("way in the frame of each increment", job.frame("U", increments)[0][0], 0.4 * 0.5, 1e-6)
         check("displacement along its course", np.abs(ramp - 0.4 * time).max(), 0.0, 1e-12)
         check("speed of a course", np.abs(job.history("node_1", "V1")[1] - 0.4).max(), 0.0, 1e-9)
         check("way of a growing velocity", np.abs(job.history("node_2", "U1")[1] - 0.2 * time**2).max(), 0.0, 1e-12)
