@@ -51,8 +51,8 @@ std::vector<double> nearest_squares(const Model& model, const std::vector<std::i
 void refuse_turned_surfaces(const Model& model, const ContactPair& pair) {
   const auto &slave = model.surfaces[pair.slave], &master = model.surfaces[pair.master];
   if (!faces_away(model, slave, master)) return;
-  throw InputError(fmt::format("{}: error: *CONTACT PAIR: the surfaces {} and {} face the same way: none of the faces of {} looks towards the "
-                               "nearest of {}; name the other side of the elements of one of them (SPOS or SNEG, another of S1 to S6)",
+  throw InputError(fmt::format("{}: error: *CONTACT PAIR: the surfaces {} and {} face the same way: none of the faces of {} looks towards "
+                               "the nearest of {}; name the other side of the elements of one of them (SPOS or SNEG, another of S1 to S6)",
                                model.where(pair.location), slave.name, master.name, slave.name, master.name));
 }
 
@@ -146,7 +146,8 @@ Vector3<double> MeshContact::anchor_of(const double* position, const ContactPoin
   return faces_.at(position, static_cast<std::int32_t>(point.anchor[0]), point.anchor[1], point.anchor[2]);
 }
 
-std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& place, const FacePlace& foot, const ContactPoint& state) const {
+std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& place, const FacePlace& foot,
+                                                                const ContactPoint& state) const {
   if (foot.face < 0) return std::nullopt;
   const double k = stiffness(place, state), overclosure = -foot.distance;
   if (tension_width_ > 0.0) {
@@ -266,7 +267,8 @@ void MeshContact::take_forces(std::int32_t index, const double* position, const 
   const auto nodes = faces_.nodes(foot.face);
   const auto shapes = face_shapes(nodes.size(), foot.xi, foot.eta);
   for (int k = 0; k < 3; ++k) {
-    for (std::size_t i = 0; i < place.nodes.size(); ++i) holding[4 * static_cast<std::size_t>(place.nodes[i]) + k] -= place.weights[i] * force[k];
+    for (std::size_t i = 0; i < place.nodes.size(); ++i)
+      holding[4 * static_cast<std::size_t>(place.nodes[i]) + k] -= place.weights[i] * force[k];
     for (std::size_t a = 0; a < nodes.size(); ++a) holding[4 * static_cast<std::size_t>(nodes[a]) + k] += shapes.value[a] * force[k];
   }
 }

@@ -4,10 +4,10 @@
 //
 // Normal force of a place: t = max(0, multiplier - stiffness * gap), the stiffness being its area times the slope that the deck gives
 // (PRESSURE-OVERCLOSURE=LINEAR; the multiplier is zero then), or in explicit steps that of the layer of slave elements behind it
-// (slave_surface.hpp), in implicit steps 20 times as much, with a multiplier that the solver augments. Where the deck gives LINEAR a tension s, nodes have the law of
-// CalculiX's node-to-face springs, pressure k d (1/2 + arctan(d / e) / pi) of the overclosure d with e = pi s / k, which pulls with s
-// at great clearance (CalculiX CrunchiX User's Manual, "Node-to-Face Penalty Contact"). Friction: a tangential spring from the anchor, a place of
-// the master that moves with its material, cut at mu * t.
+// (slave_surface.hpp), in implicit steps 20 times as much, with a multiplier that the solver augments. Where the deck gives LINEAR a
+// tension s, nodes have the law of CalculiX's node-to-face springs, pressure k d (1/2 + arctan(d / e) / pi) of the overclosure d with
+// e = pi s / k, which pulls with s at great clearance (CalculiX CrunchiX User's Manual, "Node-to-Face Penalty Contact"). Friction: a
+// tangential spring from the anchor, a place of the master that moves with its material, cut at mu * t.
 #pragma once
 
 #include <optional>
@@ -60,8 +60,6 @@ class MeshContact {
   std::span<const std::int32_t> all_nodes() const { return nodes_; }
   std::span<const std::int32_t> nodes(std::int32_t place) const { return places_[place].nodes; }
   std::span<const double> weights(std::int32_t place) const { return places_[place].weights; }
-  /// Whether the deck gives the slope of pressure, which is not augmented then.
-  bool is_soft() const { return soft_; }
 
   /// When a step starts or goes on: how far places may move in an iteration or a cycle decides how far faces are looked for.
   void prepare(const double* position, bool implicit);
@@ -124,7 +122,9 @@ class MeshContact {
     bool owned = false;
   };
   /// Of the spring that `state` has.
-  double stiffness(const Place& place, const ContactPoint& state) const { return state.implicit_spring > 0.0 ? state.implicit_spring : place.stiffness; }
+  double stiffness(const Place& place, const ContactPoint& state) const {
+    return state.implicit_spring > 0.0 ? state.implicit_spring : place.stiffness;
+  }
   PenaltyParameters parameters(const Place& place, const ContactPoint& state) const;
   Vector3<double> at(const Place& place, const double* position) const;
   Vector3<double> anchor_of(const double* position, const ContactPoint& point) const;
@@ -139,13 +139,14 @@ class MeshContact {
   double spring_energy(const Place& place, const ContactPoint& state, double gap) const;
   void keep_force(const double* position, const Place& place, double spring, ContactPoint& point) const;
   template <int face_nodes>
-  void linearize_on(std::int32_t place, const FacePlace& foot, const NormalSpring& spring, const double* position, const ContactPoint& old, ContactPoint& updated,
-                    bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const;
+  void linearize_on(std::int32_t place, const FacePlace& foot, const NormalSpring& spring, const double* position,
+                    const ContactPoint& old, ContactPoint& updated, bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const;
   static void lower_multiplier(const Place& place, const FacePlace& foot, ContactPoint& point);
   void advance(const MeshCycle& cycle, const Place& place, ContactPoint& point, double* force) const;
   double mean_force(const MeshCycle& cycle, const Place& place, const FacePlace& foot, const ContactPoint& point) const;
   /// A place gives way by `slip`: its anchor goes with it.
-  void slide(const double* position, const Vector3<double>& slip, const Vector3<double>& where, const FacePlace& foot, ContactPoint& point) const;
+  void slide(const double* position, const Vector3<double>& slip, const Vector3<double>& where, const FacePlace& foot,
+             ContactPoint& point) const;
   void set_anchor(const double* position, const Vector3<double>& where, const FacePlace& otherwise, ContactPoint& point) const;
   void open(const FacePlace& foot, ContactPoint& point) const;
 
@@ -156,7 +157,7 @@ class MeshContact {
   std::vector<Place> places_;
   double friction_ = 0.0, elastic_slip_ = 0.0, stick_slope_ = 0.0;
   double shear_stress_limit_ = std::numeric_limits<double>::infinity();
-  bool soft_ = false;
+  bool soft_ = false;           // the deck gives the slope of pressure, which is not augmented then
   double tension_width_ = 0.0;  // overclosure over which a spring that may pull becomes stiff; 0: none may
   double spring_clearance_ = 0.0;
 };

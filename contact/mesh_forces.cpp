@@ -81,7 +81,8 @@ void MeshContact::advance(const MeshCycle& cycle, const Place& place, ContactPoi
   const auto foot = faces_.nearest(position, where);
   if (!soft_ && foot.face >= 0) lower_multiplier(place, foot, point);
   const auto spring = spring_at(place, foot, point);
-  const double pressure = foot.face < 0 ? 0.0 : tension_width_ > 0.0 ? (spring ? spring->force : 0.0) : mean_force(cycle, place, foot, point);
+  double pressure = spring ? spring->force : 0.0;
+  if (foot.face >= 0 && tension_width_ == 0.0) pressure = mean_force(cycle, place, foot, point);
   if (pressure == 0.0) return open(foot, point);
   ContactForce<double> contact;
   contact.pressure = pressure;

@@ -163,7 +163,8 @@ void stick(const MovingFoot<N>& moving, ContactForce<typename MovingFoot<N>::Sca
 
 template <int N>
 void MeshContact::linearize_on(std::int32_t index, const FacePlace& found, const NormalSpring& spring, const double* position,
-                               const ContactPoint& old, ContactPoint& updated, bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const {
+                               const ContactPoint& old, ContactPoint& updated, bool sticks, const Vector3<double>& last_slip,
+                               MeshTangent& tangent) const {
   using Scalar = typename MovingFoot<N>::Scalar;
   const auto& place = places_[index];
   const auto law = parameters(place, old);

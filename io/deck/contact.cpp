@@ -188,7 +188,8 @@ void adjust(Builder& builder, const Block& block, const Row& row, const std::arr
   const auto text = block.value("ADJUST");
   const auto distance = parse_real(text);
   std::vector<std::int32_t> chosen;
-  if (distance && *distance < 0.0) return builder.error(block, row.location(), fmt::format("ADJUST={} must not be negative; correct it", *distance));
+  if (distance && *distance < 0.0)
+    return builder.error(block, row.location(), fmt::format("ADJUST={} must not be negative; correct it", *distance));
   if (!distance && !builder.nodes_of(text, block, row.location(), chosen)) return;
   std::ranges::sort(chosen);
   const FaceProjection faces(model, model.surfaces[pair[1]]);
@@ -221,7 +222,8 @@ void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t inter
     builder.model.contact_pairs.push_back({(*surfaces)[0], (*surfaces)[1], interaction, step, of_faces && mesh, row.location()});
   }
   if (block.has("ADJUST") && !mesh) return row.error("ADJUST moves nodes onto masters of deformable faces; move these nodes in the mesh");
-  if (block.has("ADJUST") && builder.in_step) return row.error("ADJUST belongs before the steps, where nothing has moved yet; declare the pair there");
+  if (block.has("ADJUST") && builder.in_step)
+    return row.error("ADJUST belongs before the steps, where nothing has moved yet; declare the pair there");
   if (block.has("ADJUST")) adjust(builder, block, row, *surfaces);
   if (block.has("CPSET")) builder.contact_pair_sets[block.value("CPSET")].insert(pair);
   apply_slip_tolerance(builder, pair);

@@ -7,10 +7,11 @@ set -u
 check() {
   local binary=$1 ranks=$2 deck=$3 folder status expected troubles="" launcher=()
   folder=$(mktemp -d)
-  mkdir "$folder/results"
+  mkdir "$folder/results" "$folder/mpi"
   expected=$(head -n 1 "$deck" | sed 's/^\*\* expect: //')
   [ "$ranks" -eq 1 ] || launcher=(mpirun --allow-run-as-root --oversubscribe -n "$ranks")
-  timeout 20 "${launcher[@]}" "$binary" run "$deck" --output "$folder/results" \
+  # A rank by itself needs no daemon, but a folder for Open MPI's files of its own: decks run side by side.
+  OMPI_MCA_orte_tmpdir_base="$folder/mpi" OMPI_MCA_ess_singleton_isolated=1 timeout 20 "${launcher[@]}" "$binary" run "$deck" --output "$folder/results" \
     >"$folder/out" 2>"$folder/err"
   status=$?
   [ $status -eq 2 ] || troubles+="exit status $status instead of 2; "

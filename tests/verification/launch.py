@@ -1,4 +1,14 @@
 """How the tests start the program."""
+import atexit
+import os
+import shutil
+import tempfile
+
+# A rank by itself needs no daemon, but a folder for Open MPI's files of its own: tests run side by side.
+FOLDER = tempfile.mkdtemp(prefix="balocco_")
+atexit.register(shutil.rmtree, FOLDER, ignore_errors=True)
+os.environ["OMPI_MCA_orte_tmpdir_base"] = FOLDER
+os.environ["OMPI_MCA_ess_singleton_isolated"] = "1"
 
 
 def on_ranks(ranks):
