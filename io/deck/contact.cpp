@@ -200,6 +200,14 @@ void adjust(Builder& builder, const Block& block, const Row& row, const std::arr
   }
 }
 
+/// Values of an interaction that another kind of pair would follow.
+void tell_what_has_no_effect(Builder& builder, const Block& block, const Interaction& interaction, bool mesh, bool of_faces) {
+  if (interaction.stick_slope && !mesh)
+    builder.warning(block, block.location, "*FRICTION: the second value, CalculiX's stick slope, counts with deformable masters only");
+  if (interaction.tension > 0.0 && of_faces)
+    builder.warning(block, block.location, "*SURFACE BEHAVIOR: the tension counts with TYPE=NODE TO SURFACE only, as in CalculiX");
+}
+
 /// Adds the pair, or in a step takes up the one that is known (a deck may repeat its pairs for the explicit steps).
 void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t interaction) {
   const auto surfaces = surfaces_of(builder, block, row);
@@ -209,6 +217,7 @@ void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t inter
   const bool of_faces = block.value("TYPE") == "SURFACE TO SURFACE";
   if (of_faces && !mesh)
     builder.warning(block, block.location, "TYPE=SURFACE TO SURFACE: the nodes of the slave are kept from the rigid master");
+  tell_what_has_no_effect(builder, block, builder.model.interactions[interaction], mesh, of_faces);
   if (of_faces && mesh && builder.model.surfaces[(*surfaces)[0]].kind == Surface::Kind::nodes)
     return row.error(fmt::format("TYPE=SURFACE TO SURFACE needs faces, and {} is made of nodes; write NODE TO SURFACE", row.name(0)));
   std::int32_t pair = find_pair(builder.model, *surfaces);
@@ -216,6 +225,8 @@ void add_pair(Builder& builder, const Block& block, Row& row, std::int32_t inter
   if (pair >= 0 && builder.model.contact_pairs[pair].interaction != interaction) {
     return row.error("this pair already has another interaction; a pair keeps its interaction in all steps");
   }
+  if (pair >= 0 && block.has("TYPE") && builder.model.contact_pairs[pair].of_faces != (of_faces && mesh))
+    return row.error("this pair already has another TYPE; a pair keeps its type in all steps");
   if (pair < 0) {
     pair = static_cast<std::int32_t>(builder.model.contact_pairs.size());
     const auto step = builder.in_step ? static_cast<std::int32_t>(builder.model.steps.size()) - 1 : 0;

@@ -147,6 +147,8 @@ void read_contact_print(Builder& builder, const Block& block) {
   });
   const auto& pairs = builder.model.contact_pairs;
   const bool any = std::ranges::any_of(pairs, [&](const auto& pair) { return deforms(builder.model, builder.model.surfaces[pair.master]); });
+  if (output->set >= 0 && std::ranges::any_of(pairs, &ContactPair::of_faces))
+    builder.warning(block, block.location, "NSET chooses among slave nodes; of pairs SURFACE TO SURFACE all places are printed");
   if (!any && !pairs.empty()) builder.warning(block, block.location, "tells of pairs with deformable masters, and there are none; use *OUTPUT");
   if (!output->variables.empty()) builder.model.steps.back().print_outputs.push_back(std::move(*output));
 }
