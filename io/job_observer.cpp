@@ -207,6 +207,8 @@ bool JobObserver::Implementation::advance(const ResultSource& running, const Pro
     results.add_history(plan->history);
     results.finish_step(step, progress.total_time);
   }
+  // What a perturbation shows is no state to go on from: the checkpoint before it stands.
+  if (current().is_perturbation() && !current().seeks_modes()) checkpoint = false;
   if (checkpoint) save(running, progress);
   const bool all_done = progress.step_finished && step + 1 == static_cast<std::int32_t>(model.steps.size());
   stopped = requests.stop && !all_done;

@@ -109,6 +109,8 @@ class Analysis : public ResultSource {
   EnergyBalance energies() const override;
   ContactResultant contact(std::int32_t pair) const override;
   std::vector<ContactPlace> contact_places(std::int32_t pair) const override;
+  /// What elements show with a linear state: of a perturbation see SmallStrainOutput::perturb().
+  SmallStrainOutput& small_strain() const;
 
  private:
   struct SampledEnergies {
@@ -119,7 +121,6 @@ class Analysis : public ResultSource {
 
   bool stays_linear(const Step& step) const;
   void leave_linear_geometry(const Step& step);
-  SmallStrainOutput& small_strain() const;
   void make_local_constraints();
   /// Adds what a connector's constraints exert to a total force CTF (as of a spring that is pulled), or to a part of it: CRF of what holds,
   /// stops (friction at the stop included), locks or drives it, CSF of friction, CCF of loads.

@@ -121,10 +121,8 @@ SmallStrainOutput& Analysis::small_strain() const {
     std::vector<double> reference(current.position.size(), 0.0);
     for (std::int32_t node = 0; node < domain.size(); ++node)
       std::ranges::copy(model.nodes.coordinates[domain.node_row[node]], &reference[4 * node]);
-    small_strain_ = std::make_unique<SmallStrainOutput>(std::move(reference));
+    small_strain_ = std::make_unique<SmallStrainOutput>(model, std::move(reference));
   }
-  const bool perturbs = current.step < static_cast<std::int32_t>(model.steps.size()) && model.steps[current.step].is_perturbation();
-  small_strain_->let_initial_stress_stiffen(perturbs);
   return *small_strain_;
 }
 

@@ -68,7 +68,7 @@ void BuckleStep::add_stresses(std::span<const double> response) {
   for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index) {
     const auto& group = *analysis_.element_groups[index];
     std::vector<double> stress(static_cast<std::size_t>(group.output_components("S")));
-    const auto components = initial_stress_components(group);
+    const auto components = initial_stress_components(analysis_.model, group);
     for (int point = 0; point < group.integration_points(); ++point) {
       const int row = group.law_field_row("S0", point);
       if (row < 0) continue;

@@ -25,6 +25,7 @@ class DynamicStep : public ImplicitStep {
 
   void find_velocities();
   void find_accelerations();
+  void keep_accelerations();
   std::vector<double> find_forces(double step_time, double total_time);
   std::vector<double> prescribed_accelerations() const;
   std::vector<double> assemble_accelerations(std::span<const double> known);
@@ -35,6 +36,7 @@ class DynamicStep : public ImplicitStep {
   void add_damping_work();
   AlphaMethod& method() { return *system_.dynamics(); }
 
+  const bool finds_initial_accelerations_ = std::get<DynamicProcedure>(step_.procedure).finds_initial_accelerations;
   std::vector<double> prediction_;
   const bool damps_ = std::ranges::any_of(analysis_.model.materials, [](const Material& material) { return material.damping_alpha > 0.0; });
   std::vector<double> damping_;  // mass-proportional, at the end of the last increment: per slot, global axes
@@ -56,7 +58,7 @@ void DynamicStep::find_start() {
     find_velocities();
     state.dynamic = true;
     system_.begin_increment();
-    find_accelerations();
+    finds_initial_accelerations_ ? find_accelerations() : keep_accelerations();
   }
   if (damps_) damping_ = damping_forces();
   find_applied_forces(state.step_time, applied_);
@@ -168,6 +170,19 @@ void DynamicStep::find_accelerations() {
   find_reactions(forces);
 }
 
+/// INITIAL=NO: those of an implicit dynamic step just before, else none.
+void DynamicStep::keep_accelerations() {
+  auto& state = analysis_.current;
+  const auto before = analysis_.model.general_step_before(state.step);
+  if (before < 0 || !std::holds_alternative<DynamicProcedure>(analysis_.model.steps[before].procedure))
+    for (auto* memory : {&state.alpha_memory, &state.alpha_memory_of_spins, &state.alpha_memory_of_bodies}) std::ranges::fill(*memory, AlphaMemory{});
+  method().hold(system_.start_of_increment());
+  const auto forces = find_forces(state.step_time, state.total_time);
+  method().follow();
+  method().commit(forces);
+  find_reactions(forces);
+}
+
 /// Rate of the gradient along the velocities, times them, by central differences: what a constraint's accelerations must undo.
 void DynamicStep::add_convective_gaps(std::vector<double>& gaps) {
   const auto& map = system_.map();
@@ -204,7 +219,8 @@ void DynamicStep::add_convective_gaps(std::vector<double>& gaps) {
 }
 
 NewtonResult DynamicStep::attempt(double time_increment) {
-  if (freed_increment_ != analysis_.current.increment && system_.starts_in_contact()) {
+  const bool may_change = finds_initial_accelerations_ || analysis_.current.increment > 0;
+  if (may_change && freed_increment_ != analysis_.current.increment && system_.starts_in_contact()) {
     find_accelerations();  // without those that contact causes
     freed_increment_ = analysis_.current.increment;
   }

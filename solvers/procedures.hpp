@@ -24,6 +24,9 @@ Outcome run_dynamic_step(Analysis& analysis, const Step& step, Observer& observe
 /// The sum of the modes that a frequency step found. @throws AnalysisError where there are none.
 Outcome run_modal_dynamic_step(Analysis& analysis, const Step& step, Observer& observer);
 
+/// The response of first order about the state. @throws AnalysisError if nothing resists a motion.
+Outcome run_static_perturbation_step(Analysis& analysis, const Step& step, Observer& observer);
+
 /// Load factors of linear buckling. @throws AnalysisError where there are none.
 Outcome run_buckle_step(Analysis& analysis, const Step& step, Observer& observer);
 

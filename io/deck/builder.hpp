@@ -101,7 +101,6 @@ class Builder {
   StepDraft draft;                       // the step being read
   const Block* coupling = nullptr;       // the last *COUPLING
   std::set<const Block*> refused_steps;  // *STEP blocks in which something was refused
-  bool static_perturbation = false;      // the first step is one: none may follow
   bool in_step = false;
   bool first_pass = false;       // nodes and elements phases: what refers to things defined further down is put off
   bool put_off = false;          // set by a handler that wants to be called again

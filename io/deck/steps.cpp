@@ -132,9 +132,6 @@ void begin_step(Builder& builder, const Block& block) {
     draft.asks_linear_geometry = !asked;
   }
   draft.perturbation = block.has("PERTURBATION");
-  if (builder.static_perturbation)
-    builder.error(block, block.location,
-                  "it follows a *STATIC step of PERTURBATION, which would have to leave no trace; remove PERTURBATION there");
   draft.maximum_increments = block.integer("INC", 100);
   if (draft.maximum_increments < 1)
     builder.error(block, block.location, "INC must be positive; correct it");
@@ -147,7 +144,8 @@ void begin_step(Builder& builder, const Block& block) {
 
 /// Loads that act on a perturbation are those that its own step says.
 void drop_loads_of_the_state(Builder& builder, Step& step) {
-  if (std::holds_alternative<FrequencyProcedure>(step.procedure)) return;  // it is about the state under its loads, and has none
+  // Modes are about the state under its loads, and have none; a static perturbation counts its own from these.
+  if (std::holds_alternative<FrequencyProcedure>(step.procedure) || std::holds_alternative<StaticPerturbationProcedure>(step.procedure)) return;
   const auto drop = [&](auto& loads) {
     std::erase_if(loads, [&](const auto& load) { return !builder.draft.said_here(load); });
     for (auto& load : loads) load.previous = 0.0;
@@ -175,13 +173,31 @@ void end_search_for_modes(Builder& builder, Step& step) {
   step.history_outputs.clear();
 }
 
-/// About the model as it is defined, a perturbation is a linear step. About a state it would have to leave that as it is.
-void begin_static_perturbation(Builder& builder, const Block& block) {
-  const auto* procedure = std::get_if<StaticProcedure>(&current_step(builder).procedure);
-  builder.static_perturbation = procedure != nullptr && !procedure->nonlinear_geometry && builder.model.steps.size() == 1;
-  if (builder.static_perturbation) return;
-  builder.error(block, builder.draft.location,
-                "PERTURBATION is supported with *FREQUENCY, and with *STATIC in the first step; remove it (steps without NLGEOM superpose)");
+/// The loads of a perturbation come on top of those that the state stands under.
+void make_static_perturbation(Builder& builder, const Block& block) {
+  Step& step = current_step(builder);
+  const auto* procedure = std::get_if<StaticProcedure>(&step.procedure);
+  const auto error = [&](const char* message) { builder.error(block, builder.draft.location, message); };
+  if (procedure == nullptr) return error("PERTURBATION is supported with *STATIC and the procedures of modes; remove it");
+  if (procedure->stabilize) return error("STABILIZE has nothing to stabilise in a step of PERTURBATION; remove one of them");
+  step.procedure = StaticPerturbationProcedure{.duration = procedure->duration};
+  const auto add = [&](auto& loads) {
+    for (auto& load : loads) {
+      const bool said = builder.draft.said_here(load);
+      if (said && load.amplitude >= 0)
+        builder.diagnostics.error({load.file, load.line}, "STATIC",
+                                  "loads of a static PERTURBATION have no course in time; leave AMPLITUDE out and give the magnitude itself");
+      load.magnitude = load.previous + (said ? load.magnitude : 0.0);
+      load.amplitude = -1;
+    }
+  };
+  add(step.concentrated_loads);
+  add(step.pressures);
+  add(step.body_loads);
+  for (const auto& condition : step.boundary)
+    if (!condition.propagated && condition.amplitude >= 0)
+      builder.diagnostics.error({condition.file, condition.line}, "BOUNDARY",
+                                "motions of a static PERTURBATION have no course in time; leave AMPLITUDE out and give the magnitude itself");
 }
 
 /// Checkpoints of which nobody says when: in each implicit increment, and at the end of an explicit step, as Abaqus has them.
@@ -199,8 +215,8 @@ void end_step(Builder& builder, const Block& block) {
   if (builder.draft.has_procedure && builder.draft.amplitude == "RAMP" && !step.ramps_loads())
     builder.diagnostics.error(builder.draft.location, "STEP",
                               "AMPLITUDE=RAMP: loads of a dynamic step act at once; leave it out and give the loads an *AMPLITUDE");
+  if (builder.draft.perturbation && !step.is_perturbation()) make_static_perturbation(builder, block);
   if (builder.draft.amplitude == "STEP" && std::holds_alternative<StaticProcedure>(step.procedure)) act_at_once(builder);
-  if (builder.draft.perturbation && !step.is_perturbation()) begin_static_perturbation(builder, block);
   if (step.is_perturbation()) drop_loads_of_the_state(builder, step);
   if (step.seeks_modes()) end_search_for_modes(builder, step);
   if (auto* statics = std::get_if<StaticProcedure>(&step.procedure)) statics->controls = builder.draft.controls;
@@ -289,6 +305,7 @@ void read_implicit_dynamic(Builder& builder, const Block& block) {
       return builder.error(block, block.location,
                            fmt::format("material {} has *DAMPING, BETA, which this procedure does not count; give ALPHA, a dashpot or *VISCOELASTIC",
                                        material.name));
+  procedure.finds_initial_accelerations = block.value("INITIAL", "YES") == "YES";
   const bool moderate = squeeze(block.value("APPLICATION")) == "MODERATEDISSIPATION";
   procedure.alpha = block.real("ALPHA", moderate ? moderate_dissipation : procedure.alpha);
   if (moderate && !block.has("ALPHA")) return read_increments(builder, block, procedure);
@@ -300,7 +317,7 @@ void read_implicit_dynamic(Builder& builder, const Block& block) {
 void read_dynamic(Builder& builder, const Block& block) {
   if (!begin_procedure(builder, block)) return;
   if (!block.has("EXPLICIT")) return read_implicit_dynamic(builder, block);
-  if (!has_none(builder, block, {"ALPHA", "APPLICATION"}, "belongs to *DYNAMIC without EXPLICIT; remove it")) return;
+  if (!has_none(builder, block, {"ALPHA", "APPLICATION", "INITIAL"}, "belongs to *DYNAMIC without EXPLICIT; remove it")) return;
   Step& step = current_step(builder);
   auto& procedure = step.procedure.emplace<ExplicitProcedure>();
   if (builder.draft.asks_linear_geometry)
@@ -364,7 +381,7 @@ const RegisterKeyword static_analysis{
 const RegisterKeyword dynamic{{"DYNAMIC",
                                Phase::history,
                                Place::step,
-                               {flag("EXPLICIT"), real("ALPHA"), flag("DIRECT USER CONTROL"), flag("DIRECT"), choice("APPLICATION", {"TRANSIENT FIDELITY", "MODERATE DISSIPATION"}),
+                               {flag("EXPLICIT"), real("ALPHA"), choice("INITIAL", {"YES", "NO"}), flag("DIRECT USER CONTROL"), flag("DIRECT"), choice("APPLICATION", {"TRANSIENT FIDELITY", "MODERATE DISSIPATION"}),
                                 foreign("ELEMENT BY ELEMENT"), foreign("IMPROVED DT METHOD"), foreign("GLOBAL"),
                                 foreign("SOLVER"), real("SCALE FACTOR"), real("ENERGY ERROR")},
                                read_dynamic}};

@@ -72,7 +72,7 @@ void Writer::procedure(const FrequencyProcedure& p) {
 }
 
 void Writer::procedure(const DynamicProcedure& p) {
-  line("*DYNAMIC, ALPHA={}{}", p.alpha, p.direct ? ", DIRECT" : "");
+  line("*DYNAMIC, ALPHA={}{}{}", p.alpha, p.direct ? ", DIRECT" : "", p.finds_initial_accelerations ? "" : ", INITIAL=NO");
   line("{}, {}, {}, {}", p.initial_increment, p.duration, p.minimum_increment, p.maximum_increment);
   controls(p.controls);
 }
@@ -90,6 +90,10 @@ void Writer::procedure(const ModalDynamicProcedure& p) {
     else
       line("*MODAL DAMPING, RAYLEIGH\n{}, {}, {}, {}", damping.first, damping.last, damping.alpha, damping.beta);
   }
+}
+
+void Writer::procedure(const StaticPerturbationProcedure& p) {
+  line("*STATIC\n, {}", p.duration);
 }
 
 void Writer::controls(const ImplicitControls& now) {
@@ -189,6 +193,10 @@ const NodeSet* Writer::set_of(Conditions first, Conditions end) const {
 }
 
 void Writer::loads(const Step& step) {
+  // Of a static perturbation what comes on top of the state's loads.
+  const bool on_top = std::holds_alternative<StaticPerturbationProcedure>(step.procedure);
+  const auto is_said = [&](const auto& load) { return !on_top || load.magnitude != load.previous; };
+  const auto said = [&](const auto& load) { return on_top ? load.magnitude - load.previous : load.magnitude; };
   std::string header;
   const auto head = [&](const std::string& keyword, std::int32_t amplitude) {
     const std::string wanted = keyword + amplitude_parameter(amplitude);
@@ -196,15 +204,19 @@ void Writer::loads(const Step& step) {
     header = wanted;
   };
   for (const auto& load : step.concentrated_loads) {
+    if (!is_said(load)) continue;
     head(load.follower ? "*CLOAD, FOLLOWER" : "*CLOAD", load.amplitude);
-    line("{}, {}, {}", node_id(load.node), load.dof + 1, load.magnitude);
+    line("{}, {}, {}", node_id(load.node), load.dof + 1, said(load));
   }
   for (const auto& load : step.pressures) {
+    if (!is_said(load)) continue;
     head("*DSLOAD", load.amplitude);
-    line("{}, P, {}", quoted(model_.surfaces[load.surface].name), load.magnitude);
+    line("{}, P, {}", quoted(model_.surfaces[load.surface].name), said(load));
   }
-  for (const auto& load : step.body_loads) {
+  for (auto load : step.body_loads) {
+    if (!is_said(load)) continue;
     head("*DLOAD", load.amplitude);
+    load.magnitude = said(load);
     line("{}, {}", load.element_set < 0 ? "" : quoted(model_.element_sets[load.element_set].name), body_load_text(load));
   }
 }
@@ -343,17 +355,18 @@ void Writer::step(std::size_t row) {
   line("*STEP, NAME={}{}", quoted(now.name), details);
   std::visit([this](const auto& kind) { procedure(kind); }, now.procedure);
   if (ends_mass_scaling(model_, row)) line("*VARIABLE MASS SCALING");
-  if (now.is_perturbation()) {  // nothing but supports and loads can be said of it
+  if (now.is_perturbation()) {
     boundary(row);
     if (!std::holds_alternative<FrequencyProcedure>(now.procedure)) loads(now);
-    return line("*END STEP");
+    if (now.seeks_modes() || std::holds_alternative<ModalDynamicProcedure>(now.procedure)) return line("*END STEP");
+  } else {
+    contact_changes(row);
+    element_changes(row);
+    attachments(now);
+    boundary(row);
+    loads(now);
+    checkpoints(row);
   }
-  contact_changes(row);
-  element_changes(row);
-  attachments(now);
-  boundary(row);
-  loads(now);
-  checkpoints(row);
   for (std::size_t k = 0; k < now.field_outputs.size(); ++k) field_output(now.field_outputs[k], row, k);
   if (now.field_outputs.empty()) line("*OUTPUT, FIELD, FREQUENCY=0");
   for (const auto& output : now.history_outputs) history_output(output);

@@ -67,6 +67,7 @@ class Writer {
   void procedure(const DynamicProcedure& p);
   void procedure(const BuckleProcedure& p);
   void procedure(const ModalDynamicProcedure& p);
+  void procedure(const StaticPerturbationProcedure& p);
   void controls(const ImplicitControls& now);
   void contact_changes(std::size_t row);
   void element_changes(std::size_t row);

@@ -19,6 +19,12 @@ bool is_energy(std::string_view variable) { return variable == "SENER" || variab
 
 }  // namespace
 
+/// Initial stresses without stiffness: in linear steps but perturbations.
+std::vector<int> SmallStrainOutput::unstiffening_rows(const ElementGroup& group, const State& state) const {
+  const bool perturbs = state.step < static_cast<std::int32_t>(model_.steps.size()) && model_.steps[state.step].is_perturbation();
+  return perturbs ? std::vector<int>{} : initial_stress_rows(model_, group);
+}
+
 /// Part of the displacement that strains the element by about the sampling strain; 0 where nothing moves.
 double SmallStrainOutput::step(const ElementGroup& group, std::int32_t element, const State& state) const {
   const auto nodes = group.nodes(element);
@@ -40,12 +46,12 @@ double SmallStrainOutput::step(const ElementGroup& group, std::int32_t element, 
   return strain > 0.0 ? sampling_strain / strain : 0.0;
 }
 
-/// The element's nodes with `factor` times their displacement.
+/// The element's nodes with `factor` times their displacement, from the base.
 NodalMotion SmallStrainOutput::place(const ElementGroup& group, std::int32_t element, const State& state, double factor) {
   for (const auto node : group.nodes(element))
     for (int i = 0; i < 3; ++i) {
       const auto here = 4 * node + i;
-      trial_[here] = reference_[here] + factor * (state.position[here] - reference_[here]);
+      trial_[here] = (base_ ? base_->position : reference_)[here] + factor * (state.position[here] - reference_[here]);
     }
   if (group.freedoms_per_node() == 3) return {.position = trial_.data()};
   trial_orientation_.resize(state.orientation.size());
@@ -53,8 +59,13 @@ NodalMotion SmallStrainOutput::place(const ElementGroup& group, std::int32_t ele
   for (const auto node : group.nodes(element)) {
     const double* const turn = &state.rotation[4 * node];
     for (int i = 0; i < 3; ++i) trial_rotation_[4 * node + i] = factor * turn[i];
-    std::ranges::copy(exponential(Vector3<double>{{factor * turn[0], factor * turn[1], factor * turn[2]}}),
-                      &trial_orientation_[4 * node]);
+    auto orientation = exponential(Vector3<double>{{factor * turn[0], factor * turn[1], factor * turn[2]}});
+    if (base_) {
+      const double* const q = &base_->orientation[4 * node];
+      orientation = product(orientation, {q[0], q[1], q[2], q[3]});
+      for (int i = 0; i < 3; ++i) trial_rotation_[4 * node + i] += base_->rotation[4 * node + i];
+    }
+    std::ranges::copy(orientation, &trial_orientation_[4 * node]);
   }
   return {.position = trial_.data(), .orientation = trial_orientation_.data(), .rotation = trial_rotation_.data()};
 }
@@ -78,7 +89,7 @@ void SmallStrainOutput::expand(const ElementGroup& group, std::int32_t element, 
   Samples whole{}, unstressed{};
   const double h = step(group, element, state);
   sample(group, element, state, history, evaluate, values.size(), h, whole);
-  const auto rows = initial_stress_stiffens_ ? std::vector<int>{} : initial_stress_rows(group);
+  const auto rows = unstiffening_rows(group, state);
   if (!rows.empty()) {
     unstressed_history_.assign(history.begin(), history.end());
     for (const int row : rows) unstressed_history_[row] = 0.0;
@@ -88,9 +99,9 @@ void SmallStrainOutput::expand(const ElementGroup& group, std::int32_t element, 
   const auto& material = rows.empty() ? whole : unstressed;
   const auto& sloping = order < 2 ? material : whole;
   for (std::size_t c = 0; c < values.size(); ++c) {
-    values[c] = whole[2][c];
+    values[c] = base_ ? 0.0 : whole[2][c];
     if (h == 0.0) continue;
-    values[c] += (8.0 * (sloping[3][c] - sloping[1][c]) - (sloping[4][c] - sloping[0][c])) / (12.0 * h);
+    if (order < 2 || !base_) values[c] += (8.0 * (sloping[3][c] - sloping[1][c]) - (sloping[4][c] - sloping[0][c])) / (12.0 * h);
     if (order < 2) continue;
     const double twice = 2.0 * material[2][c], outer = material[4][c] + material[0][c] - twice, inner = material[3][c] + material[1][c] - twice;
     values[c] += 0.5 * (16.0 * inner - outer) / (12.0 * h * h);
@@ -99,6 +110,7 @@ void SmallStrainOutput::expand(const ElementGroup& group, std::int32_t element, 
 
 void SmallStrainOutput::output(const ElementGroup& group, std::string_view variable, std::int32_t element, int point,
                                const State& state, std::span<const double> history, std::span<double> values) {
+  if (variable == "STATUS") return group.output(variable, element, point, state.motion(), history, values);
   if (variable == "MISES") {  // has no derivative where there is no stress
     std::array<double, 6> stress{};
     output(group, "S", element, point, state, history, std::span(stress).first(group.output_components("S")));

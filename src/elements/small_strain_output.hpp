@@ -1,10 +1,11 @@
 // What elements show after geometrically linear steps: Taylor's polynomials, about the reference configuration, of what their
 // kernels compute at finite strain. Those of first order are small strain and the law's tangent times it; of energies the
-// quadratic ones. No element or law has to know. An initial stress is a force alone, without stiffness, unless the procedure says that it
-// stiffens.
+// quadratic ones. No element or law has to know. An initial stress is a force alone, without stiffness, but in perturbations.
+// Perturbations about another state show the terms of first order there, of energies those of second order, and nothing else.
 #pragma once
 
 #include <array>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -15,10 +16,17 @@ namespace balocco {
 
 class SmallStrainOutput {
  public:
-  /// `reference`: where the nodes are in the reference configuration, 4 values a node and a scratch node behind them.
-  explicit SmallStrainOutput(std::vector<double> reference) : reference_(std::move(reference)), trial_(reference_) {}
+  /// What a perturbation is about, 4 values a node: places, with a scratch node behind them, and of nodes that turn.
+  struct Base {
+    std::vector<double> position, orientation, rotation;
+  };
 
-  void let_initial_stress_stiffen(bool stiffens) { initial_stress_stiffens_ = stiffens; }
+  /// `reference`: where the nodes are in the reference configuration, 4 values a node and a scratch node behind them.
+  SmallStrainOutput(const Model& model, std::vector<double> reference)
+      : model_(model), reference_(std::move(reference)), trial_(reference_) {}
+
+  /// From now on states are the reference configuration and a perturbation of `base`; null: they are linear ones.
+  void perturb(std::shared_ptr<const Base> base) { base_ = std::move(base); }
 
   /// As ElementGroup::output. `history` is that of the reference configuration; the relative error is about 1e-11.
   void output(const ElementGroup& group, std::string_view variable, std::int32_t element, int point, const State& state,
@@ -41,9 +49,12 @@ class SmallStrainOutput {
   void expand(const ElementGroup& group, std::int32_t element, const State& state, std::span<const double> history,
               Evaluate evaluate, int order, std::span<double> values);
 
+  std::vector<int> unstiffening_rows(const ElementGroup& group, const State& state) const;
+
+  const Model& model_;
+  std::shared_ptr<const Base> base_;
   std::vector<double> reference_, trial_, trial_orientation_, trial_rotation_;
   std::vector<double> trial_history_, unstressed_history_, force_;
-  bool initial_stress_stiffens_ = false;
 };
 
 }  // namespace balocco

@@ -332,7 +332,8 @@ void Checker::check_loads(const Step& step) {
 
 void Checker::check_boundary(const Step& step) {
   for (const auto& condition : step.boundary) {
-    if (step.is_perturbation() && !condition.propagated && condition.magnitude != 0.0)
+    const bool moves = std::holds_alternative<StaticPerturbationProcedure>(step.procedure) && condition.kind == BoundaryCondition::Kind::displacement;
+    if (step.is_perturbation() && !moves && !condition.propagated && condition.magnitude != 0.0)
       error({condition.file, condition.line},
             fmt::format("*BOUNDARY: node {}: modes move nothing by a given amount; give 0 in a frequency step, or move the node in a "
                         "step before",

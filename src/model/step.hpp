@@ -179,6 +179,8 @@ struct DynamicProcedure : ImplicitIncrements {
   static constexpr bool seeks_modes = false;
 
   double alpha = -0.05;  // -1/3 (most damping of the highest frequencies) to 0 (none)
+  /// False (INITIAL=NO): the step starts with the accelerations of a dynamic step just before it, or none, whatever its loads are.
+  bool finds_initial_accelerations = true;
 };
 
 /// *FIXED MASS SCALING, *VARIABLE MASS SCALING: how many times their mass the elements of a set have.
@@ -210,6 +212,20 @@ struct ExplicitProcedure {
   double energy_error_limit = 0.1;  // of the largest energy of the step: beyond it the run ends
   std::vector<MassScaling> fixed_mass_scaling;     // at the start of the step, of original masses; none: masses stay as they are
   std::vector<MassScaling> variable_mass_scaling;  // during the step, also those that go on from steps before
+};
+
+/// Response of first order to loads and motions beside those of the state, with the stiffness that it has there. Loads of the step are
+/// those of the state (`previous`) and the perturbation together; prescribed motions are the perturbation alone.
+struct StaticPerturbationProcedure {
+  static constexpr std::string_view name = "static perturbation";
+  static constexpr bool ramps_loads = false;
+  static constexpr bool needs_mass = false;
+  static constexpr bool has_few_increments = true;
+  static constexpr bool is_perturbation = true;
+  static constexpr bool is_dynamic = false;
+  static constexpr bool seeks_modes = false;
+
+  double duration = 1.0;
 };
 
 /// Natural frequencies and modes of the structure as it is loaded. At least one of `number` and `upper` is set.
@@ -266,7 +282,8 @@ struct ModalDynamicProcedure {
   std::vector<Damping> damping;
 };
 
-using Procedure = std::variant<StaticProcedure, ExplicitProcedure, FrequencyProcedure, DynamicProcedure, BuckleProcedure, ModalDynamicProcedure>;
+using Procedure = std::variant<StaticProcedure, ExplicitProcedure, FrequencyProcedure, DynamicProcedure, BuckleProcedure, ModalDynamicProcedure,
+                               StaticPerturbationProcedure>;
 
 struct Step {
   std::string name;

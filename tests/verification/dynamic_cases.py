@@ -334,8 +334,29 @@ U, UR
         check("turn", np.abs(turn[:, 0] - 0.25 * time**2).max(), 0.0, 1e-12)
 
 
+def initial_no(balocco, folder):
+    """INITIAL=NO: from rest the first acceleration is zero whatever the load, u1 = (1 + a) F / (M / (b dt^2) + (1 + a) K) with a F more of
+    the load before; behind a dynamic step it goes on as if there had been no new step."""
+    alpha, increment, force = -0.1, 0.02, 3.0
+    beta = 0.25 * (1.0 - alpha) ** 2
+    load = "*CLOAD\n2, 1, %g\n" % force
+    for nlgeom in ("", ", NLGEOM"):
+        for ranks in "12":
+            job = Job("initial_no_on_" + ranks, balocco, ranks, folder)
+            procedure = implicit(alpha, increment, increment).replace("DIRECT", "DIRECT, INITIAL=NO") + "\n" + load
+            job.run(oscillator([procedure], nlgeom=nlgeom, speed=0.0))
+            _, u = job.history("node_2", "U")
+            check("first displacement", u[-1, 0], force / (1.0 / (beta * increment**2) + (1.0 + alpha) * 1000.0), 1e-9)
+        whole, parted = (Job(name, balocco, "1", folder) for name in ("initial_whole", "initial_parted"))
+        whole.run(oscillator([implicit(alpha, increment, 0.2) + "\n" + load], nlgeom=nlgeom))
+        half = implicit(alpha, increment, 0.1)
+        parted.run(oscillator([half + "\n" + load, half.replace("DIRECT", "DIRECT, INITIAL=NO")], nlgeom=nlgeom))
+        for variable in ("U", "V", "A"):
+            check(variable + " at the end", parted.history("node_2", variable, 2)[1][-1, 0], whole.history("node_2", variable)[1][-1, 0], 1e-10)
+
+
 CASES = {case.__name__: case for case in (rate_of_error, procedures_in_turn, free_flight, spinning_body, moderate_dissipation,
-                                            growing_increments, lone_masses, stopped_and_resumed, connectors, impact)}
+                                            growing_increments, lone_masses, initial_no, stopped_and_resumed, connectors, impact)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](*sys.argv[2:])
