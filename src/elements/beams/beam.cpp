@@ -150,7 +150,7 @@ void BeamGroup::add_fibres(std::int32_t first, const BeamVector<Pack>& strain, d
   }
 }
 
-void BeamGroup::add_pack(std::int32_t first, const ExplicitCycle& cycle, std::span<double> history,
+[[gnu::flatten]] void BeamGroup::add_pack(std::int32_t first, const ExplicitCycle& cycle, std::span<double> history,
                          StableIncrement& stable) const {
   const double* const data = record(first);
   const std::int32_t *const node = connectivity_.data() + 2 * first, *const target = scatter_.data() + 2 * first;

@@ -92,7 +92,7 @@ std::array<Pack, 3> MembraneGroup<corners, points>::viscous_stress(Block& block,
 
 /// Strains of one integration point of the whole block, the law, and the forces of its stresses.
 template <int corners, int points>
-void MembraneGroup<corners, points>::add_point(int point, Block& block, const ExplicitCycle& cycle,
+[[gnu::flatten]] void MembraneGroup<corners, points>::add_point(int point, Block& block, const ExplicitCycle& cycle,
                                              std::span<double> history) const {
   using Kernel = MembraneKernel<Pack, corners, points>;
   auto& batch = block.batch;
@@ -161,7 +161,7 @@ Pack MembraneGroup<corners, points>::stable_increment(const Block& block, int pa
 
 /// Hands a block's forces to its nodes, books the dissipation and finds the governing element.
 template <int corners, int points>
-void MembraneGroup<corners, points>::finish(const Block& block, const ExplicitCycle& cycle, std::span<double> history,
+[[gnu::flatten]] void MembraneGroup<corners, points>::finish(const Block& block, const ExplicitCycle& cycle, std::span<double> history,
                                           StableIncrement& stable) const {
   double* const dissipation = history.data() + dissipation_row() * std::ptrdiff_t{padded_size_};
   for (int pack = 0; pack < block.packs; ++pack) {
@@ -195,7 +195,7 @@ StableIncrement MembraneGroup<corners, points>::add_forces(std::span<const PackR
 }
 
 template <int corners, int points>
-void MembraneGroup<corners, points>::begin(Block& block, const ExplicitCycle& cycle) const {
+[[gnu::flatten]] void MembraneGroup<corners, points>::begin(Block& block, const ExplicitCycle& cycle) const {
   for (int pack = 0; pack < block.packs; ++pack) {
     const std::int32_t* const node = connectivity_.data() + (block.first + pack * pack_size) * corners;
     const Vector3<Pack> origin = gather(cycle.motion.position, node, corners);

@@ -73,7 +73,7 @@ ShellGroup<corners, points>::ShellGroup(const GroupInput& input)
 
 /// A section whose laws are linear is integrated through the thickness once and for all.
 template <int corners, int points>
-void ShellGroup<corners, points>::add_linear_point(int point, Block& block) const {
+[[gnu::flatten]] void ShellGroup<corners, points>::add_linear_point(int point, Block& block) const {
   const auto& [a, b, d] = section_.stiffness;
   for (int pack = 0; pack < block.packs; ++pack) {
     const double* const data = record(block.first + pack * pack_size);
@@ -98,7 +98,7 @@ void ShellGroup<corners, points>::add_linear_point(int point, Block& block) cons
 
 /// The layers of a point of the surface, a batch of elements for each.
 template <int corners, int points>
-void ShellGroup<corners, points>::add_layers(int point, Block& block, double increment,
+[[gnu::flatten]] void ShellGroup<corners, points>::add_layers(int point, Block& block, double increment,
                                              std::span<double> history) const {
   auto& batch = block.batch;
   batch.count = block.packs * pack_size;
@@ -235,7 +235,7 @@ Pack ShellGroup<corners, points>::given_up(const Block& block, int pack, std::sp
 
 /// Hands a block's forces to its nodes, books the dissipation and finds the governing element.
 template <int corners, int points>
-void ShellGroup<corners, points>::finish(Block& block, const ExplicitCycle& cycle, std::span<double> history,
+[[gnu::flatten]] void ShellGroup<corners, points>::finish(Block& block, const ExplicitCycle& cycle, std::span<double> history,
                                          StableIncrement& stable) const {
   double* const dissipation = history.data() + dissipation_row() * std::ptrdiff_t{padded_size_};
   for (int pack = 0; pack < block.packs; ++pack) {
@@ -280,7 +280,7 @@ StableIncrement ShellGroup<corners, points>::add_forces(std::span<const PackRun>
 }
 
 template <int corners, int points>
-void ShellGroup<corners, points>::begin(int pack, Block& block, const ExplicitCycle& cycle) const {
+[[gnu::flatten]] void ShellGroup<corners, points>::begin(int pack, Block& block, const ExplicitCycle& cycle) const {
   const std::int32_t* const node = connectivity_.data() + (block.first + pack * pack_size) * corners;
   const double* const data = record(block.first + pack * pack_size);
   const Vector3<Pack> origin = gather(cycle.motion.position, node, corners);

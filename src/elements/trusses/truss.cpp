@@ -133,7 +133,7 @@ StableIncrement TrussGroup::add_forces(std::span<const PackRun> runs, const Expl
   return stable;
 }
 
-void TrussGroup::add_block(const PackRun& block, const ExplicitCycle& cycle, std::span<double> history,
+[[gnu::flatten]] void TrussGroup::add_block(const PackRun& block, const ExplicitCycle& cycle, std::span<double> history,
                            StableIncrement& stable) const {
   const std::int32_t first = block.first;
   Batch batch;
