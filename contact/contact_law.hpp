@@ -10,6 +10,7 @@
 #include "math/dual.hpp"
 #include "math/scalar.hpp"
 #include "math/tensor.hpp"
+#include "model/pressure_law.hpp"
 #include "model/state.hpp"
 
 namespace balocco {
@@ -24,14 +25,41 @@ struct PenaltyParameters {
   double friction = 0.0;      // Coulomb's coefficient
   double elastic_slip = 0.0;  // stretch of the tangential spring at the limit of sticking; 0: as `stiffness` makes it
   double shear_limit = std::numeric_limits<double>::infinity();  // of friction, a force
+  const PressureLaw* law = nullptr;  // a curved one; null: the normal spring is straight
+  double area = 0.0, straight_from = std::numeric_limits<double>::infinity();  // with it: see PressureLaw::at
 
   double tangential_spring() const { return tangential > 0.0 ? tangential : stiffness; }
+  /// Of the normal spring, at a distance above the surface; below zero where the point is open.
+  template <class T>
+  T normal_force(double multiplier, const T& distance) const {
+    if (law == nullptr) return multiplier - stiffness * distance;
+    const auto found = law->at(-value_of(distance), straight_from);
+    return multiplier + area * found.pressure - (area * found.slope) * (distance - value_of(distance));
+  }
+  /// What a law that goes on straight lacks of the curved one, at a distance: it goes as the point rises, and nothing stays.
+  double lacking_force(double distance) const {
+    return area * (law->at(-distance).pressure - law->at(-distance, straight_from).pressure);
+  }
   /// The force at which a point slips.
   template <class T>
   T sliding_limit(const T& pressure) const {
     return -maximum(-(pressure * friction), T(-shear_limit));
   }
 };
+
+/// The spring of a point that an explicit step follows.
+struct ContactSpring {
+  double stiffness = 0.0;  // force per length, the greatest
+  double straight_from = std::numeric_limits<double>::infinity();  // see PressureLaw::at
+};
+
+/// `penalty`: stiffness that hard contact has there, and the greatest of an exponential law that the deck does not bound.
+inline ContactSpring contact_spring(const PressureLaw& law, double area, double penalty) {
+  if (law.kind == PressureLaw::Kind::hard) return {.stiffness = penalty};
+  if (law.kind != PressureLaw::Kind::exponential) return {.stiffness = area * law.steepest()};
+  const double greatest = law.greatest_slope > 0.0 ? law.greatest_slope : penalty / area;
+  return {.stiffness = area * greatest, .straight_from = law.where_slope_is(greatest)};
+}
 
 /// Forces on the slave node, in the body frame.
 template <class T>
@@ -154,12 +182,15 @@ ContactForce<T> contact_force(const MasterSurface& surface, const PenaltyParamet
                               ContactPoint& point) {
   ContactForce<T> force;
   const Vector3<double> values{value_of(place[0]), value_of(place[1]), value_of(place[2])};
-  if (point.multiplier == 0.0 && surface.surely_outside(values)) {
+  const bool pushes_afar = parameters.law != nullptr && parameters.law->start() < 0.0;
+  if (point.multiplier == 0.0 && !pushes_afar && surface.surely_outside(values)) {
     open(point, values);
     return force;
   }
   const SurfacePoint<T> nearest = surface.nearest(place);
-  const T pressure = point.multiplier - parameters.stiffness * nearest.distance;
+  if (parameters.law != nullptr && point.multiplier > 0.0)
+    point.multiplier = std::clamp(parameters.lacking_force(value_of(nearest.distance)), 0.0, point.multiplier);
+  const T pressure = parameters.normal_force(point.multiplier, nearest.distance);
   if (!(value_of(pressure) > 0.0)) {
     open(point, values);
     return force;
@@ -167,7 +198,10 @@ ContactForce<T> contact_force(const MasterSurface& surface, const PenaltyParamet
   force.closed = true;
   force.pressure = pressure;
   force.normal = pressure * nearest.normal;
-  if (parameters.friction > 0.0) add_friction(parameters, place, nearest, point, force);
+  if (parameters.friction > 0.0)
+    add_friction(parameters, place, nearest, point, force);
+  else  // where friction would begin if a later step has some
+    for (int i = 0; i < 3; ++i) point.anchor[i] = values[i] - value_of(nearest.distance) * value_of(nearest.normal[i]);
   point.closed = 1.0;
   return force;
 }

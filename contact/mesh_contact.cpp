@@ -11,6 +11,7 @@
 #include "elements/slave_places.hpp"
 #include "elements/surface_nodes.hpp"
 #include "model/diagnostics.hpp"
+#include "model/interaction_in_step.hpp"
 #include "slave_surface.hpp"
 
 namespace balocco {
@@ -63,19 +64,10 @@ MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& dom
   refuse_turned_surfaces(model, pair);
   const auto nodes = surface_nodes(model, model.surfaces[pair.slave]);
   if (nodes.empty() || domain.local_node[nodes.front()] >= 0) faces_ = MasterFaces(model, model.surfaces[pair.master], domain.local_node);
-  std::vector<double> density;
-  if (pair.interaction >= 0) {
-    const Interaction& interaction = model.interactions[pair.interaction];
-    friction_ = interaction.friction;
-    shear_stress_limit_ = interaction.shear_stress_limit;
-    elastic_slip_ = interaction.elastic_slip.value_or(0.0);
-    stick_slope_ = interaction.stick_slope.value_or(0.0);
-    soft_ = interaction.pressure_slope.has_value();
-    if (soft_ && !pair.of_faces) tension_width_ = std::numbers::pi * interaction.tension / *interaction.pressure_slope;
-    spring_clearance_ = interaction.spring_clearance;
-    if (soft_) density.assign(static_cast<std::size_t>(model.nodes.size()), *interaction.pressure_slope);
-  }
-  if (density.empty()) density = stiffness_per_area(model, pair);
+  of_faces_ = pair.of_faces;
+  std::vector<double> density(static_cast<std::size_t>(model.nodes.size()), 0.0);
+  if (needs_penalty_stiffness(model, pair)) density = stiffness_per_area(model, pair);
+  if (pair.interaction >= 0) penalty_scale_ = model.interactions[pair.interaction].penalty_scale;
   const bool of_nodes = model.surfaces[pair.slave].faces.empty();
   const auto squares = of_nodes ? nearest_squares(model, nodes) : std::vector<double>{};
   const auto masters = surface_nodes(model, model.surfaces[pair.master]);
@@ -86,7 +78,7 @@ MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& dom
     auto& place = places_.emplace_back();
     for (std::size_t i = 0; i < from.nodes.size(); ++i) {
       place.nodes.push_back(domain.local_node[from.nodes[i]]);
-      place.stiffness += from.area * from.weights[i] * density[from.nodes[i]];
+      place.penalty += from.area * from.weights[i] * density[from.nodes[i]];
     }
     place.weights = std::move(from.weights);
     place.area = from.area;
@@ -101,11 +93,31 @@ MeshContact::MeshContact(const Model& model, std::int32_t row, const Domain& dom
   master_area_.resize(domain.local_node.size());
   for (const auto& from : slave_places(model, {.slave = pair.master, .master = pair.master}))
     if (const auto local = domain.local_node[from.nodes.front()]; local >= 0) master_area_[local] = from.area;
+  set_interaction(interaction_in_step(model, pair, -1));
+}
+
+void MeshContact::set_interaction(const Interaction& interaction) {
+  friction_ = interaction.friction;
+  shear_stress_limit_ = interaction.shear_stress_limit;
+  elastic_slip_ = interaction.elastic_slip.value_or(0.0);
+  stick_slope_ = interaction.stick_slope.value_or(0.0);
+  law_ = interaction.behavior;
+  soft_ = law_.is_soft();
+  curved_ = soft_ && law_.kind != PressureLaw::Kind::linear;
+  tension_width_ = law_.kind == PressureLaw::Kind::linear && !of_faces_ ? std::numbers::pi * law_.tension / law_.slope : 0.0;
+  spring_clearance_ = law_.spring_clearance;
+  const double scale = interaction.penalty_scale / penalty_scale_;
+  for (auto& place : places_) {
+    const auto spring = contact_spring(law_, place.area, scale * place.penalty);
+    place.stiffness = spring.stiffness;
+    place.straight_from = spring.straight_from;
+  }
 }
 
 void MeshContact::prepare(const double* position, bool implicit) {
   constexpr double in_iterations = 2.0, in_cycles = 0.5;  // of the faces' edge
-  faces_.set_reach((implicit ? in_iterations : in_cycles) * faces_.edge());
+  // A law may push afar.
+  faces_.set_reach(std::max((implicit ? in_iterations : in_cycles) * faces_.edge(), curved_ ? -2.0 * law_.start() : 0.0));
   located_.clear();
   follow(position);
 }
@@ -130,7 +142,10 @@ PenaltyParameters MeshContact::parameters(const Place& place, const ContactPoint
           .tangential = stick_slope_ * place.area,
           .friction = friction_,
           .elastic_slip = elastic_slip_,
-          .shear_limit = shear_stress_limit_ * place.area};
+          .shear_limit = shear_stress_limit_ * place.area,
+          .law = curved_ ? &law_ : nullptr,
+          .area = place.area,
+          .straight_from = straight_from(place, state)};
 }
 
 Vector3<double> MeshContact::at(const Place& place, const double* position) const {
@@ -156,6 +171,11 @@ std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& pla
     const double x = overclosure / tension_width_, share = 0.5 + std::atan(x) / std::numbers::pi;
     return NormalSpring{k * overclosure * share, -k * (share + x / (std::numbers::pi * (1.0 + x * x))), true};
   }
+  if (curved_) {
+    const auto found = law_.at(overclosure, straight_from(place, state));
+    const double force = state.multiplier + place.area * found.pressure;
+    return force > 0.0 ? std::optional(NormalSpring{force, -place.area * found.slope, true}) : std::nullopt;
+  }
   const double force = state.multiplier + k * overclosure;
   if (force > 0.0) return NormalSpring{force, -k, true};
   if (force > -k * touching * faces_.edge()) return NormalSpring{0.0, -k, false};
@@ -165,6 +185,7 @@ std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& pla
 double MeshContact::spring_energy(const Place& place, const ContactPoint& state, double gap) const {
   const double k = stiffness(place, state), e = tension_width_;
   if (e > 0.0) return k * (0.25 * gap * gap + (0.5 * (gap * gap + e * e) * std::atan(-gap / e) + 0.5 * e * gap) / std::numbers::pi);
+  if (curved_) return place.area * law_.energy(-gap, straight_from(place, state));
   // A multiplier holds without a stretch: nothing is stored where the gap is zero.
   const double force = std::max(0.0, state.multiplier - k * gap), held = std::max(0.0, state.multiplier);
   return 0.5 * (force * force - held * held) / k;

@@ -3,7 +3,7 @@
 // master's face by the shape functions at the foot.
 //
 // Normal force of a place: t = max(0, multiplier - stiffness * gap), the stiffness being its area times the slope that the deck gives
-// (PRESSURE-OVERCLOSURE=LINEAR; the multiplier is zero then), or in explicit steps that of the layer of slave elements behind it
+// (PRESSURE-OVERCLOSURE=LINEAR; the multiplier is zero then; of EXPONENTIAL and TABULAR see model/pressure_law.hpp), or in explicit steps that of the layer of slave elements behind it
 // (slave_surface.hpp), in implicit steps 20 times as much, with a multiplier that the solver augments. Where the deck gives LINEAR a
 // tension s, nodes have the law of CalculiX's node-to-face springs, pressure k d (1/2 + arctan(d / e) / pi) of the overclosure d with
 // e = pi s / k, which pulls with s at great clearance (CalculiX CrunchiX User's Manual, "Node-to-Face Penalty Contact"). Friction: a
@@ -55,6 +55,9 @@ class MeshContact {
   std::int32_t size() const { return static_cast<std::int32_t>(places_.size()); }
   /// Whether this rank adds the forces of a place.
   bool owned(std::int32_t place) const { return places_[place].owned; }
+  /// From now on the places press and rub so.
+  void set_interaction(const Interaction& interaction);
+  void set_friction(double coefficient) { friction_ = coefficient; }
   double area(std::int32_t place) const { return places_[place].area; }
   /// Of both surfaces, local.
   std::span<const std::int32_t> all_nodes() const { return nodes_; }
@@ -72,6 +75,8 @@ class MeshContact {
 
   /// At the start of a step: places of a pair that is not `active` open, and open places stand over the surface where they are.
   void start_step(const double* position, bool active, std::vector<ContactPoint>& points) const;
+  /// Where a step brings another law of pressure: closed places begin with that alone.
+  void forget_springs(bool implicit, std::vector<ContactPoint>& points) const;
   /// Gives places the springs of an implicit step, or of an explicit one; the forces of closed ones stay.
   void choose_springs(const double* position, bool implicit, std::vector<ContactPoint>& points) const;
 
@@ -118,6 +123,8 @@ class MeshContact {
     std::vector<std::int32_t> nodes;  // local
     std::vector<double> weights;
     double area = 0.0, stiffness = 0.0;
+    double penalty = 0.0;  // stiffness of hard contact, where any step has such
+    double straight_from = std::numeric_limits<double>::infinity();  // see PressureLaw::at
     double spacing = 0.0;  // area that there is for each place: `area`, or of node-based surfaces the square of the nearest distance
     bool owned = false;
   };
@@ -134,14 +141,20 @@ class MeshContact {
     double force = 0.0, slope = 0.0;
     bool closed = false;
   };
+  double straight_from(const Place& place, const ContactPoint& state) const {
+    return state.implicit_spring > 0.0 ? std::numeric_limits<double>::infinity() : place.straight_from;
+  }
   /// Nothing where the place is open.
   std::optional<NormalSpring> spring_at(const Place& place, const FacePlace& foot, const ContactPoint& state) const;
   double spring_energy(const Place& place, const ContactPoint& state, double gap) const;
   void keep_force(const double* position, const Place& place, double spring, ContactPoint& point) const;
+  double lacking_force(const double* position, const Place& place) const;
+  /// Of an implicit step, as ContactPoint has it.
+  double implicit_spring(const Place& place) const { return soft_ && !curved_ ? 0.0 : (soft_ ? 1.0 : stiff_factor) * place.stiffness; }
   template <int face_nodes>
   void linearize_on(std::int32_t place, const FacePlace& foot, const NormalSpring& spring, const double* position,
                     const ContactPoint& old, ContactPoint& updated, bool sticks, const Vector3<double>& last_slip, MeshTangent& tangent) const;
-  static void lower_multiplier(const Place& place, const FacePlace& foot, ContactPoint& point);
+  void lower_multiplier(const Place& place, const FacePlace& foot, ContactPoint& point) const;
   void advance(const MeshCycle& cycle, const Place& place, ContactPoint& point, double* force) const;
   double mean_force(const MeshCycle& cycle, const Place& place, const FacePlace& foot, const ContactPoint& point) const;
   /// A place gives way by `slip`: its anchor goes with it.
@@ -157,7 +170,11 @@ class MeshContact {
   std::vector<Place> places_;
   double friction_ = 0.0, elastic_slip_ = 0.0, stick_slope_ = 0.0;
   double shear_stress_limit_ = std::numeric_limits<double>::infinity();
-  bool soft_ = false;           // the deck gives the slope of pressure, which is not augmented then
+  bool soft_ = false;           // the deck gives a law of pressure, which is not augmented then
+  bool of_faces_ = false;
+  bool curved_ = false;         // which is not a straight line:
+  PressureLaw law_;
+  double penalty_scale_ = 1.0;  // with which penalties were found
   double tension_width_ = 0.0;  // overclosure over which a spring that may pull becomes stiff; 0: none may
   double spring_clearance_ = 0.0;
 };

@@ -6,14 +6,29 @@
 
 namespace balocco {
 
+void MeshContact::forget_springs(bool implicit, std::vector<ContactPoint>& points) const {
+  for (std::int32_t i = 0; i < size(); ++i) {
+    points[i].multiplier = points[i].stiff_force = 0.0;
+    points[i].implicit_spring = implicit ? implicit_spring(places_[i]) : 0.0;
+  }
+}
+
 void MeshContact::choose_springs(const double* position, bool implicit, std::vector<ContactPoint>& points) const {
   for (std::int32_t i = 0; i < size(); ++i) {
     const auto& place = places_[i];
-    const double spring = implicit && !soft_ ? stiff_factor * place.stiffness : 0.0;
+    if (soft_ && (implicit || !curved_)) points[i].multiplier = 0.0;  // the law alone
+    const double spring = implicit ? implicit_spring(place) : 0.0;
     if (spring == points[i].implicit_spring) continue;
-    if (points[i].closed > 0.0) keep_force(position, place, spring, points[i]);
+    if (points[i].closed > 0.0 && !soft_) keep_force(position, place, spring, points[i]);
+    if (points[i].closed > 0.0 && curved_ && !implicit) points[i].multiplier = lacking_force(position, place);
     points[i].implicit_spring = spring;
   }
+}
+
+/// What an explicit step has begun without, of the force of a curved law.
+double MeshContact::lacking_force(const double* position, const Place& place) const {
+  const auto foot = faces_.nearest(position, at(place, position));
+  return foot.face < 0 ? 0.0 : parameters(place, {}).lacking_force(foot.distance);
 }
 
 /// The multiplier and the anchor become those with which the other spring exerts the same force. The multiplier is negative where a soft
@@ -58,6 +73,10 @@ double MeshContact::mean_force(const MeshCycle& cycle, const Place& place, const
   double opening = 0.0;
   for (std::size_t i = 0; i < place.nodes.size(); ++i) opening += place.weights[i] * velocity_of(place.nodes[i]);
   for (std::size_t a = 0; a < nodes.size(); ++a) opening -= shapes.value[a] * velocity_of(nodes[a]);
+  if (curved_) {
+    const double from = 0.5 * cycle.previous * opening - foot.distance, to = -0.5 * cycle.next * opening - foot.distance;
+    return point.multiplier + place.area * law_.mean_pressure(from, to, straight_from(place, point));
+  }
   const double k = stiffness(place, point);
   const double before = point.multiplier - k * (foot.distance - 0.5 * cycle.previous * opening);
   const double behind = point.multiplier - k * (foot.distance + 0.5 * cycle.next * opening);
@@ -69,9 +88,9 @@ double MeshContact::mean_force(const MeshCycle& cycle, const Place& place, const
 
 /// A multiplier from statics goes with its stiff spring: as the place rises, no more is left of it than that spring would exert. Nothing
 /// pushes across a gap.
-void MeshContact::lower_multiplier(const Place& place, const FacePlace& foot, ContactPoint& point) {
+void MeshContact::lower_multiplier(const Place& place, const FacePlace& foot, ContactPoint& point) const {
   if (!(point.multiplier > 0.0)) return;
-  const double of_stiff_spring = point.stiff_force - (stiff_factor - 1.0) * place.stiffness * foot.distance;
+  const double of_stiff_spring = curved_ ? parameters(place, point).lacking_force(foot.distance) : point.stiff_force - (stiff_factor - 1.0) * place.stiffness * foot.distance;
   point.multiplier = std::clamp(of_stiff_spring, 0.0, point.multiplier);
 }
 
@@ -79,7 +98,7 @@ void MeshContact::advance(const MeshCycle& cycle, const Place& place, ContactPoi
   const double* const position = cycle.position;
   const auto where = at(place, position);
   const auto foot = faces_.nearest(position, where);
-  if (!soft_ && foot.face >= 0) lower_multiplier(place, foot, point);
+  if (foot.face >= 0) lower_multiplier(place, foot, point);
   const auto spring = spring_at(place, foot, point);
   double pressure = spring ? spring->force : 0.0;
   if (foot.face >= 0 && tension_width_ == 0.0) pressure = mean_force(cycle, place, foot, point);

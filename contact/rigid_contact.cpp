@@ -8,6 +8,7 @@
 #include "contact_resultant.hpp"
 #include "master_frame.hpp"
 #include "model/diagnostics.hpp"
+#include "model/interaction_in_step.hpp"
 #include "slave_surface.hpp"
 
 namespace balocco {
@@ -73,12 +74,7 @@ RigidContact::RigidContact(const Model& model, std::int32_t pair, const Domain& 
   if (surface_.empty())
     throw refused(model, contact,
                   fmt::format("the master surface {} has no length or area; give it segments or facets", master.name));
-  if (contact.interaction >= 0) {
-    const Interaction& interaction = model.interactions[contact.interaction];
-    friction_ = interaction.friction;
-    shear_stress_limit_ = interaction.shear_stress_limit;
-    elastic_slip_ = interaction.elastic_slip.value_or(0.0);
-  }
+  if (contact.interaction >= 0) penalty_scale_ = model.interactions[contact.interaction].penalty_scale;
   const SlaveNodes all = slave_nodes(model, contact);
   if (faces_away(model, slave, surface_, reference))
     throw refused(
@@ -94,16 +90,38 @@ RigidContact::RigidContact(const Model& model, std::int32_t pair, const Domain& 
     nodes_.push_back(node);
     owned_.push_back(domain.owned[node]);
     area_.push_back(all.area[i]);
-    stiffness_.push_back(all.stiffness[i]);
+    penalty_.push_back(all.stiffness[i]);
+  }
+  stiffness_.resize(nodes_.size());
+  straight_from_.resize(nodes_.size());
+  set_interaction(interaction_in_step(model, contact, -1));
+}
+
+void RigidContact::set_interaction(const Interaction& interaction) {
+  friction_ = interaction.friction;
+  shear_stress_limit_ = interaction.shear_stress_limit;
+  elastic_slip_ = interaction.elastic_slip.value_or(0.0);
+  law_ = interaction.behavior;
+  const double scale = interaction.penalty_scale / penalty_scale_;
+  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+    const auto spring = contact_spring(law_, area_[i], scale * penalty_[i]);
+    stiffness_[i] = spring.stiffness;
+    straight_from_[i] = spring.straight_from;
   }
 }
 
 void RigidContact::start_step(const double* position, const RigidBodyState& master, bool active,
                               std::vector<ContactPoint>& points) const {
   const MasterFrame frame(master);
-  for (std::int32_t i = 0; i < size(); ++i)
-    if (!active || points[i].closed == 0.0)
-      open(points[i], frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i])));
+  for (std::int32_t i = 0; i < size(); ++i) {
+    const auto place = frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
+    if (!active || points[i].closed == 0.0) open(points[i], place);
+    // A stiff spring without a force begins here, if the step brings friction.
+    const bool unloaded = points[i].stiff_spring > 0.0 && points[i].closed > 0.0 && points[i].stiff_friction == Point{};
+    if (!unloaded) continue;
+    const auto normal = surface_.nearest(place).normal;
+    points[i].anchor = (place + dot(Vector3<double>{points[i].anchor} - place, normal) * normal).component;
+  }
 }
 
 void RigidContact::add_forces(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points,
@@ -202,6 +220,7 @@ double RigidContact::augment(const double* position, const RigidBodyState& maste
                              std::vector<ContactPoint>& points) const {
   const MasterFrame frame(master);
   double greatest = 0.0;
+  if (is_soft()) return greatest;
   for (std::int32_t i = 0; i < size(); ++i) {
     const auto arm = frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
     const double gap = surface_.nearest(frame.inverse * arm).distance;
@@ -210,6 +229,18 @@ double RigidContact::augment(const double* position, const RigidBodyState& maste
   }
   return greatest;
 }
+
+namespace {
+
+/// Energy that the normal spring holds.
+double normal_energy(const PenaltyParameters& spring, double multiplier, double gap) {
+  if (spring.law != nullptr) return spring.area * spring.law->energy(-gap, spring.straight_from);
+  // A multiplier holds without a stretch: nothing is stored where the gap is zero.
+  const double stretched = std::max(0.0, multiplier - spring.stiffness * gap), held = std::max(0.0, multiplier);
+  return 0.5 * (stretched * stretched - held * held) / spring.stiffness;
+}
+
+}  // namespace
 
 RigidContact::Output RigidContact::output(std::int32_t point, const double* position, const RigidBodyState& master,
                                           const ContactPoint& state) const {
@@ -226,11 +257,7 @@ RigidContact::Output RigidContact::output(std::int32_t point, const double* posi
   output.shear = std::sqrt(square) / area_[point];
   output.normal_force = (frame.rotation * contact.normal).component;
   output.friction_force = (frame.rotation * contact.friction).component;
-  // A multiplier holds without a stretch: nothing is stored where the gap is zero.
-  const double spring = parameters(point, state).stiffness;
-  const double stretched = std::max(0.0, state.multiplier - spring * output.gap);
-  const double held = std::max(0.0, state.multiplier);
-  output.spring_energy = 0.5 * (stretched * stretched - held * held) / spring;
+  output.spring_energy = normal_energy(parameters(point, state), state.multiplier, output.gap);
   if (contact.tangential_stiffness > 0.0) output.spring_energy += 0.5 * square / contact.tangential_stiffness;
   return output;
 }

@@ -5,7 +5,8 @@
 // unless the implicit solver augmented it. Friction: tangential spring from the anchor, cut at mu * t, or, where the deck gives an
 // ELASTIC SLIP, of the stiffness mu * t / elastic slip where that is less. It is as stiff as the normal spring. Springs that an
 // explicit cycle must follow have the stiffness of the pair; those of the implicit solver and the stiff ones of explicit steps are 20
-// times as stiff.
+// times as stiff. Where the deck gives a law of pressure over overclosure (model/pressure_law.hpp) the normal spring is that, in all steps:
+// nothing is augmented and no spring is stiffer.
 #pragma once
 
 #include <algorithm>
@@ -69,6 +70,11 @@ class RigidContact {
   std::int32_t master_body() const { return master_body_; }       // row of Model::rigid_bodies; -1: the master deforms
   double area(std::int32_t point) const { return area_[point]; }
   double normal_stiffness(std::int32_t point) const { return stiffness_[point]; }
+  /// From now on the points press and rub so.
+  void set_interaction(const Interaction& interaction);
+  void set_friction(double coefficient) { friction_ = coefficient; }
+  /// Whether the deck gives a law of pressure, which is not augmented then and has no stiff springs.
+  bool is_soft() const { return law_.is_soft(); }
 
   /// At the start of a step: points of a pair that is not `active` open, and open points stand over the surface where
   /// they are, so that nothing is remembered from before a pair rested. Slip and dissipation stay.
@@ -81,6 +87,8 @@ class RigidContact {
   void add_forces(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points,
                   double* force) const;
 
+  /// Where a step brings another law of pressure: closed points begin with that alone.
+  void forget_springs(bool implicit, std::vector<ContactPoint>& points) const;
   /// Gives all points the springs of the implicit solver; the force of a closed point stays.
   void choose_implicit_springs(const double* position, const RigidBodyState& master, std::vector<ContactPoint>& points) const;
   /// Those of an explicit step: the stiff spring to points that `stiff` names, that of the pair to the others. As above.
@@ -148,7 +156,10 @@ class RigidContact {
     return {.stiffness = chosen > 0.0 ? chosen : stiffness_[point],
             .friction = friction_,
             .elastic_slip = elastic_slip_,
-            .shear_limit = shear_stress_limit_ * area_[point]};
+            .shear_limit = shear_stress_limit_ * area_[point],
+            .law = is_curved() ? &law_ : nullptr,
+            .area = area_[point],
+            .straight_from = state.implicit_spring > 0.0 ? std::numeric_limits<double>::infinity() : straight_from_[point]};
   }
   /// Force of a point whose history `state` is up to date.
   ContactForce<double> acting_force(std::int32_t point, const Vector3<double>& place, const ContactPoint& state) const;
@@ -160,6 +171,12 @@ class RigidContact {
   void change_springs(const MasterFrame& frame, const double* position, std::int32_t point, const Springs& springs,
                       ContactPoint& state) const;
   void keep_force(std::int32_t point, const Vector3<double>& place, const Springs& springs, ContactPoint& state) const;
+  bool is_curved() const { return law_.is_soft() && law_.kind != PressureLaw::Kind::linear; }
+  double implicit_spring(std::int32_t point) const {
+    if (!is_soft()) return stiff_factor * stiffness_[point];
+    return is_curved() ? stiffness_[point] : 0.0;
+  }
+  void choose_soft_spring(std::int32_t point, const Vector3<double>& place, double spring, ContactPoint& state) const;
   void add_stiff_force(std::int32_t point, const StiffCycle& cycle, const RigidBodyState& master,
                        const SlaveFreedom& freedom, ContactPoint& state, double* force) const;
   void advance_stiff_friction(std::int32_t point, const MasterFrame& frame, const StiffMotion& motion, const SlaveFreedom& freedom,
@@ -169,7 +186,10 @@ class RigidContact {
   MasterSurface surface_;
   std::vector<std::int32_t> nodes_;  // in the order of their model rows
   std::vector<bool> owned_;
-  std::vector<double> area_, stiffness_;
+  std::vector<double> area_, stiffness_, straight_from_;
+  std::vector<double> penalty_;  // stiffness of hard contact, with:
+  double penalty_scale_ = 1.0;
+  PressureLaw law_;
   double friction_ = 0.0, elastic_slip_ = 0.0, shear_stress_limit_ = std::numeric_limits<double>::infinity();
 };
 

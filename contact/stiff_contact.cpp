@@ -55,10 +55,18 @@ struct RigidContact::StiffMotion {
   }
 };
 
+void RigidContact::forget_springs(bool implicit, std::vector<ContactPoint>& points) const {
+  for (std::int32_t i = 0; i < size(); ++i) {
+    points[i].multiplier = points[i].stiff_spring = points[i].stiff_force = 0.0;
+    points[i].stiff_friction = {};
+    points[i].implicit_spring = implicit ? implicit_spring(i) : 0.0;
+  }
+}
+
 void RigidContact::choose_implicit_springs(const double* position, const RigidBodyState& master,
                                            std::vector<ContactPoint>& points) const {
   const MasterFrame frame(master);
-  for (std::int32_t i = 0; i < size(); ++i) change_springs(frame, position, i, {0.0, stiff_factor * stiffness_[i]}, points[i]);
+  for (std::int32_t i = 0; i < size(); ++i) change_springs(frame, position, i, {0.0, implicit_spring(i)}, points[i]);
 }
 
 void RigidContact::choose_springs(const double* position, const RigidBodyState& master, const std::vector<bool>& stiff,
@@ -72,12 +80,22 @@ void RigidContact::change_springs(const MasterFrame& frame, const double* positi
                                   ContactPoint& point) const {
   if (springs.stiff == point.stiff_spring && springs.implicit == point.implicit_spring) return;
   const auto place = frame.inverse * frame.arm(position + 4 * static_cast<std::ptrdiff_t>(nodes_[i]));
+  if (is_soft()) return choose_soft_spring(i, place, springs.implicit, point);
   if (point.closed > 0.0)
     keep_force(i, place, springs, point);
   else if (springs.stiff > 0.0 && !surface_.surely_outside(place))
     point.multiplier = std::min(0.0, springs.stiff * surface_.nearest(place).distance);  // below the surface it begins down there
   point.stiff_spring = springs.stiff;
   point.implicit_spring = springs.implicit;
+}
+
+/// In implicit steps the law is the force. An explicit one goes on with what its straight part lacks as a multiplier.
+void RigidContact::choose_soft_spring(std::int32_t i, const Vector3<double>& place, double spring, ContactPoint& point) const {
+  point.stiff_spring = 0.0;
+  point.implicit_spring = spring;
+  point.multiplier = 0.0;
+  if (is_curved() && spring == 0.0 && point.closed > 0.0)
+    point.multiplier = std::max(0.0, parameters(i, point).lacking_force(surface_.nearest(place).distance));
 }
 
 /// The anchor is where the spring starts along the surface, and as high above it as statics left the point.

@@ -258,20 +258,37 @@ void Writer::rigid_bodies() {
   }
 }
 
+void Writer::friction(const Interaction& interaction) {
+  if (interaction.friction == 0.0 && !interaction.elastic_slip) return;
+  line("*FRICTION{}{}\n{}", interaction.elastic_slip ? fmt::format(", ELASTIC SLIP={}", *interaction.elastic_slip) : "",
+       std::isfinite(interaction.shear_stress_limit) ? fmt::format(", TAUMAX={}", interaction.shear_stress_limit) : "",
+       interaction.stick_slope ? fmt::format("{}, {}", interaction.friction, *interaction.stick_slope) : fmt::format("{}", interaction.friction));
+}
+
+void Writer::behavior(const Interaction& interaction) {
+  const auto& law = interaction.behavior;
+  switch (law.kind) {
+    case PressureLaw::Kind::hard: break;
+    case PressureLaw::Kind::linear:
+      line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}, {}, {}", law.slope, law.tension, law.spring_clearance);
+      break;
+    case PressureLaw::Kind::exponential:
+      line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL\n{}, {}, {}", law.clearance, law.pressure, law.greatest_slope);
+      break;
+    case PressureLaw::Kind::table:
+      line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TABULAR");
+      for (const auto& row : law.rows) line("{}, {}", row.pressure, row.overclosure);
+      break;
+  }
+  if (interaction.penalty_scale != 1.0) line("*SURFACE BEHAVIOR, PENALTY\n{}", interaction.penalty_scale);
+}
+
 void Writer::contact() {
   comment("Contact");
   for (const auto& interaction : model_.interactions) {
     line("*SURFACE INTERACTION, NAME={}", quoted(interaction.name));
-    if (interaction.friction != 0.0 || interaction.elastic_slip) {
-      line("*FRICTION{}{}\n{}",
-           interaction.elastic_slip ? fmt::format(", ELASTIC SLIP={}", *interaction.elastic_slip) : "",
-           std::isfinite(interaction.shear_stress_limit) ? fmt::format(", TAUMAX={}", interaction.shear_stress_limit) : "",
-           interaction.stick_slope ? fmt::format("{}, {}", interaction.friction, *interaction.stick_slope) : fmt::format("{}", interaction.friction));
-    }
-    if (interaction.pressure_slope)
-      line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}, {}, {}", *interaction.pressure_slope, interaction.tension,
-           interaction.spring_clearance);
-    if (interaction.penalty_scale != 1.0) line("*SURFACE BEHAVIOR, PENALTY\n{}", interaction.penalty_scale);
+    friction(interaction);
+    behavior(interaction);
   }
   for (const auto& pair : model_.contact_pairs) {
     if (pair.first_step > 0) continue;

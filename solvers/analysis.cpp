@@ -16,6 +16,7 @@
 #include "math/rotation.hpp"
 #include "model/check_constraints.hpp"
 #include "model/diagnostics.hpp"
+#include "model/interaction_in_step.hpp"
 #include "model/rigid_constraints.hpp"
 
 namespace balocco {
@@ -228,9 +229,14 @@ void Analysis::start_step(const Step& step) {
   kinetic_energy.reset();
   if (current.linear && !stays_linear(step)) leave_linear_geometry(step);
   apply_attachments(step);
+  apply_interactions();
   for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
     const bool active = std::ranges::count(step.active_contact_pairs, static_cast<std::int32_t>(pair)) > 0;
     const bool implicit = !std::holds_alternative<ExplicitProcedure>(step.procedure);
+    if (changes_law(model, model.contact_pairs[pair], current.step)) {
+      contacts[pair].forget_springs(implicit, current.contact[pair]);
+      mesh_contacts[pair].forget_springs(implicit, current.contact[pair]);
+    }
     mesh_contacts[pair].prepare(current.position.data(), implicit);
     mesh_contacts[pair].start_step(current.position.data(), active, current.contact[pair]);
     mesh_contacts[pair].choose_springs(current.position.data(), implicit, current.contact[pair]);
@@ -240,6 +246,23 @@ void Analysis::start_step(const Step& step) {
     contact.start_step(current.position.data(), master, active, current.contact[pair]);
     if (implicit)
       contact.choose_implicit_springs(current.position.data(), master, current.contact[pair]);
+  }
+}
+
+void Analysis::apply_interactions() {
+  for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
+    const auto& now = interaction_in_step(model, model.contact_pairs[pair], current.step);
+    contacts[pair].set_interaction(now);
+    mesh_contacts[pair].set_interaction(now);
+  }
+  follow_friction(current.step_time);
+}
+
+void Analysis::follow_friction(double step_time) {
+  for (std::size_t pair = 0; pair < contacts.size(); ++pair) {
+    const double friction = friction_in_step(model, model.contact_pairs[pair], current.step, step_time);
+    contacts[pair].set_friction(friction);
+    mesh_contacts[pair].set_friction(friction);
   }
 }
 

@@ -61,6 +61,10 @@ class Analysis : public ResultSource {
   /// What happens once when a step starts afresh: attaches and releases what it says, from where the nodes stand; contact
   /// pairs that rest in it forget what they knew. Collective.
   void start_step(const Step& step);
+  /// Gives contact pairs the interactions that they have in the current step, also where a step goes on after a restart.
+  void apply_interactions();
+  /// Coulomb's coefficients at a time of the current step.
+  void follow_friction(double step_time);
   /// False for an element that *MODEL CHANGE has taken out of the model in the current step: it has no force and no energy, only mass.
   bool takes_part(const ElementGroup& group, std::int32_t element) const;
   /// False for a constraint that *EQUATION, REMOVE has taken out of the current step.

@@ -24,7 +24,8 @@ ExplicitContact::ExplicitContact(const Analysis& analysis, const Step& step, con
               .freedom = std::vector<SlaveFreedom>(static_cast<std::size_t>(contact.size())),
               .stiff = {}};
     // Single nodes stand for no face whose pressure would ask for a harder spring.
-    const bool hard = analysis.model.surfaces[analysis.model.contact_pairs[row].slave].kind == Surface::Kind::element_faces;
+    const bool hard =
+        analysis.model.surfaces[analysis.model.contact_pairs[row].slave].kind == Surface::Kind::element_faces && !contact.is_soft();
     for (std::int32_t point = 0; point < contact.size(); ++point) {
       auto& freedom = pair.freedom[point];
       freedom.inverse_mass = inverse_mass[contact.nodes()[point]];

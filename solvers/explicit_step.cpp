@@ -66,7 +66,7 @@ RestraintBound bound_of_step(Analysis& analysis, const NodalRestraints& restrain
 /// Attachments come first of all: what follows depends on who carries which node.
 const Step& started(Analysis& analysis, const Step& step) {
   const bool afresh = analysis.current.increment == 0;
-  if (afresh) analysis.start_step(step);
+  afresh ? analysis.start_step(step) : analysis.apply_interactions();
   afresh ? place_restraints(analysis) : replace_restraints(analysis);
   return step;
 }

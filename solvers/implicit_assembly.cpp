@@ -54,6 +54,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   add_body_load_stiffness(request);
   add_follower_stiffness(request);
   if (dynamics_ && request.inertia) stiffness_.set_weight(dynamics_->contact_tangent_weight());
+  analysis_.follow_friction(request.step_time);
   add_contact(request.contact_sticks);
   if (dynamics_ && request.inertia) stiffness_.set_weight(dynamics_->tangent_weight());
   guides_.aim(analysis_, request.step_time, request.total_time, request.initial_loads);

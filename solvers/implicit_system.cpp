@@ -27,6 +27,7 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
     dynamics_ = std::make_unique<AlphaMethod>(analysis, map_, dynamic->alpha, has_contact());
   for (const auto& group : analysis.element_groups)
     unstiffening_rows_.push_back(analysis.current.linear && !step.is_perturbation() ? initial_stress_rows(analysis.model, *group) : std::vector<int>{});
+  analysis_.apply_interactions();
   find_levers();
   find_stabilizing_masses();
   guides_.begin_increment(analysis_);

@@ -1,4 +1,4 @@
-// *SURFACE INTERACTION *FRICTION *SURFACE BEHAVIOR *CONTACT PAIR *MODEL CHANGE.
+// *CONTACT PAIR *MODEL CHANGE.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "constraints/face_projection.hpp"
 #include "deck/builder.hpp"
 #include "deck/geometry.hpp"
+#include "deck/interactions.hpp"
 #include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
@@ -16,114 +17,6 @@
 namespace balocco::deck {
 
 namespace {
-
-Interaction& current_interaction(Builder& builder) {
-  return builder.model.interactions.back();
-}
-
-void read_interaction(Builder& builder, const Block& block) {
-  const auto full = builder.define(builder.interactions, block.value("NAME"),
-                                   static_cast<std::int32_t>(builder.model.interactions.size()), block);
-  builder.connector_friction = nullptr;
-  for (const auto& line :
-       block.lines) {  // Abaqus writes the out-of-plane thickness "1.," of two-dimensional models here
-    Row row(builder, block, line);
-    if (row.real_or(0, 1.0, "out-of-plane thickness") != 1.0)
-      row.error("models are three-dimensional: remove the data line");
-  }
-  Interaction interaction;
-  interaction.name = full.value_or(block.value("NAME"));
-  interaction.location = block.location;
-  builder.model.interactions.push_back(std::move(interaction));
-}
-
-/// ROUGH: a point that is closed never slips.
-void read_rough_friction(Builder& builder, const Block& block) {
-  constexpr double never_slips = 1e12;
-  if (!block.lines.empty() || block.has("TAUMAX") || block.has("SLIP TOLERANCE") || block.has("ELASTIC SLIP"))
-    return builder.error(block, block.location, "ROUGH stands alone, without a coefficient and other parameters; take them away");
-  if (builder.connector_friction != nullptr)
-    return builder.error(block, block.location, "ROUGH is of surfaces; hold the connector with *CONNECTOR LOCK");
-  if (!builder.model.interactions.empty()) current_interaction(builder).friction = never_slips;
-}
-
-void read_friction(Builder& builder, const Block& block) {
-  if (block.has("ROUGH")) return read_rough_friction(builder, block);
-  if (block.lines.empty()) return builder.error(block, block.location, "the coefficient is missing; add a data line");
-  Row row(builder, block, block.lines[0]);
-  const double coefficient = row.real_or(0, 0.0, "friction coefficient");
-  // One line holds at every slip rate, pressure and temperature, which may follow. Where CalculiX has its stick slope Abaqus has the slip
-  // rate, which is zero where there is one line.
-  const double slope = row.real_or(1, 0.0, "slip rate, or stick slope");
-  for (int field = 2; field < 4; ++field) row.real_or(field, 0.0, "contact pressure or temperature");
-  if (row.ok() && slope < 0.0) row.error(fmt::format("the stick slope {} must not be negative; correct it", slope));
-  row.at_most(4);
-  if (row.ok() && coefficient < 0.0)
-    row.error(fmt::format("coefficient {} must not be negative; correct it", coefficient));
-  if (block.lines.size() > 1)
-    builder.error(block, block.lines[1].location, "tables of friction are not supported; give one coefficient");
-  if (builder.connector_friction != nullptr) {
-    builder.connector_friction->coefficient = coefficient;
-    if (block.has("SLIP TOLERANCE") || block.has("ELASTIC SLIP"))
-      builder.error(block, block.location, "connectors stick exactly, without an elastic slip; remove the parameter");
-    if (block.has("TAUMAX")) builder.error(block, block.location, "TAUMAX is a stress of surfaces, which connectors do not have; remove it");
-    return;
-  }
-  if (builder.model.interactions.empty()) return;  // the *CONNECTOR FRICTION above it is wrong, which has been told
-  current_interaction(builder).friction = coefficient;
-  if (slope > 0.0) current_interaction(builder).stick_slope = slope;
-  if (block.has("TAUMAX")) {
-    const double limit = block.real("TAUMAX", 0.0);
-    if (!(limit > 0.0)) return builder.error(block, block.location, "TAUMAX, the greatest shear stress, must be positive; correct it");
-    current_interaction(builder).shear_stress_limit = limit;
-  }
-  if (block.has("SLIP TOLERANCE")) {
-    const double tolerance = block.real("SLIP TOLERANCE", 0.0);
-    if (!(tolerance > 0.0) || block.has("ELASTIC SLIP")) {
-      return builder.error(block, block.location,
-                           "SLIP TOLERANCE must be positive and stand without ELASTIC SLIP; correct it");
-    }
-    builder.slip_tolerance[static_cast<std::int32_t>(builder.model.interactions.size()) - 1] = tolerance;
-  }
-  if (block.has("ELASTIC SLIP")) {
-    current_interaction(builder).elastic_slip = block.real("ELASTIC SLIP", 0.0);
-    if (!(*current_interaction(builder).elastic_slip > 0.0))
-      builder.error(block, block.location, "ELASTIC SLIP must be positive; correct it");
-  }
-}
-
-/// LINEAR: pressure per overclosure; behind it CalculiX has the tension at great clearance and how far that reaches.
-void read_linear_behavior(Builder& builder, const Block& block) {
-  if (block.has("PENALTY") || block.has("AUGMENTED LAGRANGE"))
-    return builder.error(block, block.location, "PENALTY and AUGMENTED LAGRANGE are of hard contact; take them away, or LINEAR");
-  if (block.lines.empty())
-    return builder.error(block, block.location, "LINEAR needs a line with the slope of pressure over overclosure; add it");
-  Row row(builder, block, block.lines[0]);
-  const double slope = row.real(0, "slope of pressure over overclosure");
-  auto& interaction = current_interaction(builder);
-  interaction.tension = row.real_or(1, 0.0, "tension at great clearance");
-  interaction.spring_clearance = row.real_or(2, 0.0, "clearance up to which it pulls");
-  row.at_most(3);
-  if (row.ok() && !(slope > 0.0)) row.error(fmt::format("slope {} must be positive; correct it", slope));
-  if (row.ok() && (interaction.tension < 0.0 || interaction.spring_clearance < 0.0))
-    row.error("tension and clearance must not be negative; correct them");
-  interaction.pressure_slope = slope;
-}
-
-/// Hard: the enforcement is the procedure's own, penalty in explicit steps, augmented Lagrange in static ones.
-void read_surface_behavior(Builder& builder, const Block& block) {
-  if (block.value("PRESSURE-OVERCLOSURE") == "LINEAR") return read_linear_behavior(builder, block);
-  if (block.lines.empty()) return;
-  if (!block.has("PENALTY")) {
-    return builder.error(block, block.lines[0].location,
-                         "data lines are known only with PENALTY (a scale factor of the stiffness); remove them");
-  }
-  Row row(builder, block, block.lines[0]);
-  const double scale = row.real_or(0, 1.0, "scale of the penalty stiffness");
-  row.at_most(1);
-  if (row.ok() && !(scale > 0.0)) row.error(fmt::format("scale {} must be positive; correct it", scale));
-  current_interaction(builder).penalty_scale = scale;
-}
 
 std::optional<std::array<std::int32_t, 2>> surfaces_of(Builder& builder, const Block& block, Row& row) {
   row.at_most(2);
@@ -147,28 +40,14 @@ void activate(std::vector<std::int32_t>& active, std::int32_t pair) {
   std::sort(active.begin(), active.end());
 }
 
-/// SLIP TOLERANCE is a fraction of the mean edge of the slave's faces, as in Abaqus.
+/// SLIP TOLERANCE is a fraction of the mean edge of the slave's faces, as in Abaqus. A surface of nodes has no edges: the automatic elastic
+/// slip stays.
 void apply_slip_tolerance(Builder& builder, std::int32_t pair) {
   const auto& [slave, master, interaction, first_step, of_faces, location] = builder.model.contact_pairs[pair];
   const auto tolerance = builder.slip_tolerance.find(interaction);
   if (tolerance == builder.slip_tolerance.end() || builder.model.interactions[interaction].elastic_slip) return;
-  double sum = 0.0;
-  std::size_t edges = 0;
-  for (const auto& face : builder.model.surfaces[slave].faces) {
-    const auto& table = builder.model.elements[face.element.table];
-    const auto& corners = table.type->faces[face.face];
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const auto at = [&](std::size_t corner) {
-        return builder.model.nodes
-            .coordinates[table.connectivity[face.element.row * table.type->nodes + corners[corner]]];
-      };
-      sum += norm(subtract(at((k + 1) % corners.size()), at(k)));
-      ++edges;
-    }
-  }
-  // A surface of nodes has no edges: the automatic elastic slip stays.
-  if (edges > 0)
-    builder.model.interactions[interaction].elastic_slip = tolerance->second * sum / static_cast<double>(edges);
+  const double edge = mean_edge(builder.model, slave);
+  if (edge > 0.0) builder.model.interactions[interaction].elastic_slip = tolerance->second * edge;
 }
 
 /// Whether surfaces can form a pair, slave first.
@@ -204,7 +83,7 @@ void adjust(Builder& builder, const Block& block, const Row& row, const std::arr
 void tell_what_has_no_effect(Builder& builder, const Block& block, const Interaction& interaction, bool mesh, bool of_faces) {
   if (interaction.stick_slope && !mesh)
     builder.warning(block, block.location, "*FRICTION: the second value, CalculiX's stick slope, counts with deformable masters only");
-  if (interaction.tension > 0.0 && of_faces)
+  if (interaction.behavior.tension > 0.0 && of_faces)
     builder.warning(block, block.location, "*SURFACE BEHAVIOR: the tension counts with TYPE=NODE TO SURFACE only, as in CalculiX");
 }
 
@@ -326,20 +205,6 @@ void read_model_change(Builder& builder, const Block& block) {
   }
 }
 
-const RegisterKeyword interaction{
-    {"SURFACE INTERACTION", Phase::definitions, Place::anywhere, {required(name("NAME"))}, read_interaction}};
-const RegisterKeyword friction{{"FRICTION",
-                                Phase::definitions,
-                                Place::anywhere,
-                                {real("ELASTIC SLIP"), real("SLIP TOLERANCE"), real("TAUMAX"), flag("ROUGH")},
-                                read_friction,
-                                "SURFACE INTERACTION or CONNECTOR BEHAVIOR"}};
-const RegisterKeyword surface_behavior{{"SURFACE BEHAVIOR",
-                                        Phase::definitions,
-                                        Place::anywhere,
-                                        {choice("PRESSURE-OVERCLOSURE", {"HARD", "LINEAR"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
-                                        read_surface_behavior,
-                                        "SURFACE INTERACTION"}};
 const RegisterKeyword pair{
     {"CONTACT PAIR",
      Phase::history,

@@ -49,6 +49,7 @@ class Scheduler {
   const Block* step_ = nullptr;
   Scope* scope_ = &builder_.scopes.front();
   std::string parent_;  // keyword whose options may follow
+  Phase parent_phase_ = Phase::definitions;
   bool parent_refused_ = false;
   bool step_refused_ = false;  // the *STEP line itself was refused: nothing in the step is run
 };
@@ -186,12 +187,15 @@ void Scheduler::add_checked(Block& block) {
   }
   if (rule->parent.empty()) {
     parent_ = block.keyword;
+    parent_phase_ = rule->phase;
     parent_refused_ = false;
   }
   const bool skipped = step_refused_ && rule->phase == Phase::history;
   if (block.keyword == "STEP" || block.keyword == "ENDSTEP") begin_or_end_step(block);
   if (!rule->warning.empty()) builder_.warning(block, block.location, rule->warning);
-  const Phase phase = step_ != nullptr && rule->phase == Phase::constraints ? Phase::history : rule->phase;
+  // An option of what belongs to the step does too.
+  const bool of_step = step_ != nullptr && (rule->phase == Phase::constraints || (!rule->parent.empty() && parent_phase_ == Phase::history));
+  const Phase phase = of_step ? Phase::history : rule->phase;
   const bool in_step = step_ != nullptr && phase == Phase::history;
   if (rule->handler != nullptr && !skipped)
     tasks_.push_back({&block, rule, scope_, phase, in_step || block.keyword == "ENDSTEP"});

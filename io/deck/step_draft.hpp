@@ -28,6 +28,7 @@ struct StepDraft {
   std::optional<std::vector<MassScaling>> fixed_mass_scaling, variable_mass_scaling;
   Location mass_scaling_location;  // of the first of them
   std::string amplitude;  // *STEP, AMPLITUDE=
+  std::int32_t changed_interaction = -1;  // row of Step::changed_interactions: what *FRICTION and *SURFACE BEHAVIOR speak of
   bool faulty = false;  // a block of it was refused: what that leaves missing is not told
   bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false;  // OP=NEW seen
   std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary

@@ -73,6 +73,8 @@ void inherit(Builder& builder, Step& step) {
   for (auto& motion : step.connector_motions) propagate(model, motion.course, before.duration());
   step.connector_loads = before.connector_loads;
   step.active_contact_pairs = before.active_contact_pairs;
+  step.changed_interactions = before.changed_interactions;
+  for (auto& change : step.changed_interactions) change.friction_before = change.properties.friction;
   step.removed_elements = before.removed_elements;
   step.removed_constraints = before.removed_constraints;
   step.field_outputs = before.field_outputs;

@@ -62,6 +62,7 @@ void act_at_once(Builder& builder) {
   };
   for (auto& condition : step.boundary) move(condition);
   for (auto& motion : step.connector_motions) move(motion.course);
+  for (auto& change : step.changed_interactions) change.friction_before = change.properties.friction;
 }
 
 }  // namespace balocco::deck

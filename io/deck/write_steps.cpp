@@ -124,6 +124,28 @@ void Writer::contact_changes(std::size_t row) {
            of_faces ? ", TYPE=SURFACE TO SURFACE" : "", names);
     if (now != (was || starts)) line("*MODEL CHANGE, TYPE=CONTACT PAIR, {}\n{}", now ? "ADD" : "REMOVE", names);
   }
+  const auto* previous = before(model_, row);
+  for (const auto& change : model_.steps[row].changed_interactions) {
+    const auto* known = &model_.interactions[change.interaction];
+    if (previous != nullptr) {
+      const auto found = std::ranges::find(previous->changed_interactions, change.interaction, &ChangedInteraction::interaction);
+      if (found != previous->changed_interactions.end()) known = &found->properties;
+    }
+    interaction_change(change.properties, *known);
+  }
+}
+
+void Writer::interaction_change(const Interaction& now, const Interaction& before) {
+  if (now.friction != before.friction || now.elastic_slip != before.elastic_slip || now.stick_slope != before.stick_slope ||
+      now.shear_stress_limit != before.shear_stress_limit) {
+    line("*CHANGE FRICTION, INTERACTION={}", quoted(now.name));
+    friction(now);
+  }
+  if (now.behavior != before.behavior || now.penalty_scale != before.penalty_scale) {
+    line("*CHANGE SURFACE BEHAVIOR, INTERACTION={}", quoted(now.name));
+    if (!now.behavior.is_soft()) line("*SURFACE BEHAVIOR");
+    behavior(now);
+  }
 }
 
 void Writer::element_changes(std::size_t row) {

@@ -70,6 +70,9 @@ class Writer {
   void procedure(const StaticPerturbationProcedure& p);
   void controls(const ImplicitControls& now);
   void contact_changes(std::size_t row);
+  void interaction_change(const Interaction& now, const Interaction& before);
+  void friction(const Interaction& interaction);
+  void behavior(const Interaction& interaction);
   void element_changes(std::size_t row);
   void boundary(std::size_t row);
   const NodeSet* set_of(Conditions first, Conditions end) const;

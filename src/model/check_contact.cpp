@@ -71,10 +71,10 @@ void check_sides(const Model& model, const ContactPair& pair, Errors& errors) {
 }
 
 void check_interaction(const Model& model, const ContactPair& pair, Errors& errors) {
-  const bool soft = pair.interaction >= 0 && model.interactions[pair.interaction].pressure_slope.has_value();
-  if (soft && is_rigid(model, model.surfaces[pair.master]))
-    errors.emplace_back(pair.location, fmt::format("*CONTACT PAIR: PRESSURE-OVERCLOSURE=LINEAR is of pairs with deformable masters, and {} "
-                                                   "is rigid; write HARD",
+  const bool pulls = pair.interaction >= 0 && model.interactions[pair.interaction].behavior.tension > 0.0;
+  if (pulls && is_rigid(model, model.surfaces[pair.master]))
+    errors.emplace_back(pair.location, fmt::format("*CONTACT PAIR: PRESSURE-OVERCLOSURE=LINEAR with a tension is of pairs with deformable masters, "
+                                                   "and {} is rigid; leave the tension out",
                                                    model.surfaces[pair.master].name));
 }
 

@@ -13,17 +13,13 @@
 #include "model/connector.hpp"
 #include "model/constraint.hpp"
 #include "model/element_ref.hpp"
+#include "model/interaction.hpp"
+#include "model/location.hpp"
 #include "model/step.hpp"
 
 namespace balocco {
 
 struct ElementType;  // elements/element_type.hpp
-
-/// Where in which file of Model::files something was said. `file` < 0: nowhere (made by the program).
-struct Location {
-  std::int32_t file = -1;
-  std::int32_t line = 0;
-};
 
 using Point = std::array<double, 3>;
 
@@ -226,20 +222,6 @@ struct Amplitude {
   std::vector<std::array<double, 2>> harmonics;  // periodic: (A cos, B sin)
 
   double value(double time) const;
-};
-
-/// *SURFACE INTERACTION with its options.
-struct Interaction {
-  std::string name;
-  double friction = 0.0;
-  double shear_stress_limit = std::numeric_limits<double>::infinity();  // of friction
-  double penalty_scale = 1.0;             // multiplies the automatic normal stiffness
-  std::optional<double> elastic_slip;     // slip at which sticking friction reaches its limit; none: automatic
-  std::optional<double> pressure_slope;   // of a deformable master: pressure per overclosure; none: hard
-  double tension = 0.0;                   // with it, of nodes: the pull at great clearance (CalculiX)
-  double spring_clearance = 0.0;          // and the clearance up to which it pulls; 0: a thousandth of the edge of a node's area
-  std::optional<double> stick_slope;      // likewise: shear stress per slip of what sticks; none: automatic
-  Location location;
 };
 
 /// A contact pair: nodes of `slave` may not penetrate `master`.

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "model/element_ref.hpp"
+#include "model/interaction.hpp"
 
 namespace balocco {
 
@@ -296,6 +297,7 @@ struct Step {
   std::vector<ConnectorMotion> connector_motions;
   std::vector<ConnectorLoad> connector_loads;
   std::vector<std::int32_t> active_contact_pairs;  // rows of Model::contact_pairs, after *MODEL CHANGE
+  std::vector<ChangedInteraction> changed_interactions;  // of this step and of those before it
   std::vector<ElementRef> removed_elements;        // sorted: out of the model in this step, after *MODEL CHANGE
   std::vector<std::int32_t> removed_constraints;   // sorted rows of Model::constraints that hold no more, after *EQUATION, REMOVE
   std::vector<RigidAttachment> attachments;

@@ -87,6 +87,24 @@ INSTANTIATE_TEST_SUITE_P(Cases, TangentOrder,
                                          TangentCase{"HillClosingSlip", hilly_road(), {}, 3.0, 2.0}),
                          [](const auto& info) { return std::string(info.param.name); });
 
+/// Above the surface, below it and behind where an explicit step goes on straight.
+TEST(RigidContact, DifferencesApproachTheTangentOfACurvedLaw) {
+  for (const double height : {0.6, -1.0, -4.0}) {
+    Contact contact(hilly_road());
+    auto interaction = contact.model.interactions[0];
+    interaction.behavior = {.kind = PressureLaw::Kind::exponential, .clearance = 2.0, .pressure = 0.4, .greatest_slope = 0.8};
+    contact.pair.set_interaction(interaction);
+    rotate(contact.master, {0.25, -0.15, 0.3});
+    contact.start_at({28.0, 3.0, height});
+    ContactPoint closed;
+    const auto tangent = contact.tangent(closed);
+    ASSERT_TRUE(tangent.closed);
+    contact.points[0] = closed;
+    contact.points[0].anchor[0] += 0.05;
+    EXPECT_LT(difference_error(contact, 2e-3), std::max(0.27 * difference_error(contact, 4e-3), 1e-8)) << height;
+  }
+}
+
 // What makes the import of contact exact.
 TEST(RigidContact, ExplicitAndImplicitForcesAreTheSameBits) {
   Contact contact(hilly_road());

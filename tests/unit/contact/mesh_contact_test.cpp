@@ -13,6 +13,10 @@ namespace {
 
 using namespace test;
 
+const PressureLaw straight{.kind = PressureLaw::Kind::linear, .slope = 100.0};
+/// Pushes where the places of the tests are, with a slope like that.
+const PressureLaw curved{.kind = PressureLaw::Kind::exponential, .clearance = 1.5, .pressure = 30.0, .greatest_slope = 90.0};
+
 /// The plate of the other tests as master, seen from above, and single nodes as slaves.
 struct MeshPair {
   Model model;
@@ -21,7 +25,7 @@ struct MeshPair {
   MeshContact contact;
   std::vector<ContactPoint> start, now;
 
-  explicit MeshPair(int bricks, double friction_coefficient = friction, double slope = 100.0) : model(plate_on_road(bricks)) {
+  explicit MeshPair(int bricks, double friction_coefficient = friction, const PressureLaw& law = straight) : model(plate_on_road(bricks)) {
     add_node(model, {0, 0, 0});
     model.rigid_bodies.clear();
     Surface top = model.surfaces[0], foot = model.surfaces[0];
@@ -31,7 +35,7 @@ struct MeshPair {
     foot.nodes = {model.nodes.size() - 1};
     model.surfaces = {foot, top};
     model.interactions[0].friction = friction_coefficient;
-    model.interactions[0].pressure_slope = slope;
+    model.interactions[0].behavior = law;
     domain = whole(model);
     position = positions(model, domain);
     contact = MeshContact(model, 0, domain);
@@ -113,11 +117,11 @@ TEST(MeshContact, SticksAndSlipsRelativeToTheMaterialOfTheMaster) {
 }
 
 /// The derivative is that of the force: central differences, sliding or sticking, over faces, on an edge that they share, off its foot.
-class MeshTangentOf : public testing::TestWithParam<std::tuple<Point, Point, bool>> {};
+class MeshTangentOf : public testing::TestWithParam<std::tuple<Point, Point, bool, PressureLaw>> {};
 
 TEST_P(MeshTangentOf, ForceIsItsDerivative) {
-  const auto [at, moved, valley] = GetParam();
-  MeshPair pair(2);
+  const auto [at, moved, valley, law] = GetParam();
+  MeshPair pair(2, friction, law);
   std::mt19937 random(7);
   std::uniform_real_distribution<double> noise(-0.3, 0.3);
   for (std::size_t node = 0; node + 1 < static_cast<std::size_t>(pair.model.nodes.size()); ++node)
@@ -160,10 +164,12 @@ TEST_P(MeshTangentOf, ForceIsItsDerivative) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Places, MeshTangentOf,
-                         testing::Values(std::tuple{Point{6.2, 4.1, 4.7}, Point{0.002, -0.003, -0.01}, false},
-                                         std::tuple{Point{6.2, 4.1, 4.7}, Point{0.9, 0.4, -0.1}, false},
-                                         std::tuple{Point{9.4, 4.1, 4.6}, Point{1.2, 0.4, -0.1}, false},
-                                         std::tuple{Point{9.9, 4.1, 3.2}, Point{0.02, 0.003, -0.01}, true}));
+                         testing::Values(std::tuple{Point{6.2, 4.1, 4.7}, Point{0.002, -0.003, -0.01}, false, straight},
+                                         std::tuple{Point{6.2, 4.1, 4.7}, Point{0.9, 0.4, -0.1}, false, straight},
+                                         std::tuple{Point{9.4, 4.1, 4.6}, Point{1.2, 0.4, -0.1}, false, straight},
+                                         std::tuple{Point{9.9, 4.1, 3.2}, Point{0.02, 0.003, -0.01}, true, straight},
+                                         std::tuple{Point{6.2, 4.1, 5.4}, Point{0.9, 0.4, -0.1}, false, curved},
+                                         std::tuple{Point{6.2, 4.1, 3.6}, Point{1.3, 0.4, -0.1}, false, curved}));
 
 }  // namespace
 }  // namespace balocco
