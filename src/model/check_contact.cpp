@@ -70,9 +70,19 @@ void check_sides(const Model& model, const ContactPair& pair, Errors& errors) {
   }
 }
 
+/// In any step.
+bool may_pull(const Model& model, const ContactPair& pair) {
+  if (pair.interaction < 0) return false;
+  if (model.interactions[pair.interaction].behavior.tension > 0.0) return true;
+  return std::ranges::any_of(model.steps, [&](const Step& step) {
+    return std::ranges::any_of(step.changed_interactions, [&](const ChangedInteraction& change) {
+      return change.interaction == pair.interaction && change.properties.behavior.tension > 0.0;
+    });
+  });
+}
+
 void check_interaction(const Model& model, const ContactPair& pair, Errors& errors) {
-  const bool pulls = pair.interaction >= 0 && model.interactions[pair.interaction].behavior.tension > 0.0;
-  if (pulls && is_rigid(model, model.surfaces[pair.master]))
+  if (may_pull(model, pair) && is_rigid(model, model.surfaces[pair.master]))
     errors.emplace_back(pair.location, fmt::format("*CONTACT PAIR: PRESSURE-OVERCLOSURE=LINEAR with a tension is of pairs with deformable masters, "
                                                    "and {} is rigid; leave the tension out",
                                                    model.surfaces[pair.master].name));

@@ -168,6 +168,27 @@ def friction_comes_in(runner):
         close(np.median(friction / normal), 0.3, 5e-2, master + ": friction of the explicit step")
 
 
+def friction_comes_in_explicit(runner):
+    """A block that an explicit step has drawn along without friction stops, and friction comes in: it begins to stick where it stands, so
+    that at first there is none, not mu N for the whole way."""
+    for master in ("road", "faces"):
+        deck, _ = model(master, kind="C3D8R") if master == "road" else (blocks(3, 1, at=(0.15, 1.0), size=(3.0, 1.0), kinds=("C3D8R", "C3D8R")), 2)
+        pair(deck, "SURFACE TO SURFACE" if master == "faces" else "NODE TO SURFACE")
+        base = 6 if master == "road" else 3
+        static(deck, "*BOUNDARY\nBASE, 1, %d\nTOP, 2, 2\nTOP, 3, 3, -0.01\nTOP, 1, 1, 0.\n" % base)
+        deck.add("*AMPLITUDE, NAME=STOP, DEFINITION=SMOOTH STEP\n0., 0., 0.1, 1.")
+        often = EXPLICIT_OUTPUT.replace("HISTORY, FREQUENCY=1", "HISTORY, TIME INTERVAL=1e-4")
+        for change, condition in (("", "*BOUNDARY, AMPLITUDE=STOP\nTOP, 1, 1, 0.2\n"), ("*CHANGE FRICTION, INTERACTION=TOUCH\n*FRICTION\n0.3\n", "")):
+            deck.add("*STEP, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, 0.1\n%s%s%s*END STEP" % (change, condition, often))
+        results = runner.run("explicit_" + master, deck, 2)
+        sliding = np.abs(history(results, "CFT", 2)).max()
+        friction, normal = np.abs(history(results, "CFT", 3)).max(axis=1), history(results, "CFN", 3)[:, 2]
+        moved = np.mean([results.at(n, "U", 3)[0] for n in deck.sets["SOLE"]])
+        print("%s: friction %.1e of mu N at first, %.1e at most" % (master, friction[0] / (0.3 * normal[0]), (friction / normal).max() / 0.3))
+        assert sliding == 0.0 and normal.min() > 0.0 and abs(moved - 0.2) < 1e-2, (sliding, normal.min(), moved)
+        assert (friction / normal).max() < 0.05 * 0.3
+
+
 def friction_restarted(runner):
     """A job stopped after each first increment, where friction is between two values, ends as one that was left alone."""
     for master in ("road", "faces"):
@@ -199,7 +220,7 @@ def behavior_changes(runner):
         assert stress[0] > 1.1 * stress[1]
 
 
-CASES = {f.__name__: f for f in (pressed, standing, bouncing, friction_comes_in, friction_restarted, behavior_changes)}
+CASES = {f.__name__: f for f in (pressed, standing, bouncing, friction_comes_in, friction_comes_in_explicit, friction_restarted, behavior_changes)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](Runner(sys.argv[2], sys.argv[3]))
