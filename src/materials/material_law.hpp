@@ -56,6 +56,7 @@ struct EnergyDensity {
   double recoverable = 0.0;
   double plastic = 0.0;  // dissipated
   double viscous = 0.0;  // dissipated
+  double heat = 0.0;     // work that thermal expansion has done on the material: what came into it beside the work of forces
 };
 
 /// A part of a law's history. Scalars are output variables by their names; each history is zero in the undeformed state.
