@@ -227,6 +227,9 @@ void Writer::materials() {
          material.instantaneous ? ", MODULI=INSTANTANEOUS" : "");
     values(material.parameters);
     for (const auto& option : material.options) material_option(option);
+    if (!material.expansion) continue;
+    line("*EXPANSION, ZERO={}", material.expansion->reference);
+    for (const auto& row : material.expansion->rows) values(row);
   }
 }
 
@@ -339,6 +342,12 @@ void Writer::initial_fields() {
   }
 }
 
+void Writer::initial_temperatures() {
+  if (model_.initial_temperature.empty()) return;
+  line("*INITIAL CONDITIONS, TYPE=TEMPERATURE");
+  for (std::int32_t node = 0; node < model_.nodes.size(); ++node) line("{}, {}", node_id(node), model_.initial_temperature[node]);
+}
+
 std::string Writer::write() {
   // What refers to sets comes first, because it may make some.
   definitions();
@@ -348,6 +357,7 @@ std::string Writer::write() {
   rigid_bodies();
   contact();
   initial_displacements();
+  initial_temperatures();
   initial_velocities();
   initial_fields();
   for (std::size_t row = 0; row < model_.steps.size(); ++row) step(row);

@@ -76,6 +76,7 @@ void add_material(Digest& digest, const Model& model, std::int32_t row) {
   digest.add(std::string_view(material.law));
   digest.add_all(material.parameters);
   for (const auto& option : material.options) digest.add(std::string_view(option.name));
+  if (material.expansion) digest.add(std::string_view("expands"));  // points have more history
 }
 
 }  // namespace

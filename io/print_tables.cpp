@@ -23,7 +23,7 @@ namespace {
 
 /// The variable of the elements that a printed one is made of.
 std::string source_variable(const std::string& printed) {
-  if (printed == "ME") return "E";  // there are no temperatures
+  if (printed == "ME") return "E";  // less the thermal strain
   return printed == "ENER" ? "SENER" : printed;
 }
 
@@ -263,6 +263,12 @@ std::vector<double> PrintTables::point_values(const ResultSource& source, const 
       if (own.empty()) continue;
       source.element(place.group, variable, place.local, point, own);
       auto six = six_components(own);
+      if (printed == "ME" && source.groups()[place.group]->output_components("THE") == 1) {
+        double thermal = 0.0;
+        source.element(place.group, "THE", place.local, point, std::span(&thermal, 1));
+        if (!source.state().linear) thermal += 0.5 * thermal * thermal;  // Green's strain
+        for (std::size_t axis = 0; axis < 3; ++axis) six[axis] -= axis < own.size() ? thermal : 0.0;
+      }
       if (is_strain(printed))
         for (int shear = 3; shear < 6; ++shear) six[shear] *= 0.5;
       if (columns == 6) turn(request, place, variable == "E", six);

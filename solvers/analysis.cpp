@@ -18,6 +18,7 @@
 #include "model/diagnostics.hpp"
 #include "model/interaction_in_step.hpp"
 #include "model/rigid_constraints.hpp"
+#include "thermal_strains.hpp"
 
 namespace balocco {
 
@@ -207,6 +208,7 @@ void Analysis::leave_linear_geometry(const Step& step) {
   current.linear = false;
   if (current.total_time == 0.0) return;
   place_rigid_nodes(current.position);
+  if (const auto thermal = thermal_strains(*this)) thermal->leave_first_order(*this);
   bool sound = true;
   for (std::size_t index = 0; index < element_groups.size(); ++index) {
     const auto& group = *element_groups[index];

@@ -131,6 +131,7 @@ EnergyBalance Analysis::sum_energies() const {
       add(hourglass, energies.hourglass);
       add(viscous, energies.viscous);
       add(plastic, energies.plastic);
+      add(work, energies.heat);
     });
   kinetic_energy ? sums[kinetic].add(*kinetic_energy) : add_kinetic_energy(sums[kinetic]);
   for (std::int32_t node = 0; node < domain.size(); ++node) {

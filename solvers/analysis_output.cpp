@@ -8,6 +8,7 @@
 #include "joint_angles.hpp"
 #include "contact_output.hpp"
 #include "output_instant.hpp"
+#include "thermal_strains.hpp"
 #include "total_force.hpp"
 
 namespace balocco {
@@ -82,6 +83,14 @@ void reaction_moment(const Analysis& analysis, std::span<double> values) {
   add_joint_reactions(analysis, values);
 }
 
+void temperature(const Analysis& analysis, std::span<double> values) {
+  const auto& steps = analysis.model.steps;
+  const auto& state = analysis.current;
+  const auto row = std::min<std::size_t>(state.step, steps.size() - 1);
+  const double step_time = state.step < static_cast<std::int32_t>(steps.size()) ? state.step_time : steps[row].duration();
+  std::ranges::copy(nodal_temperatures(analysis, steps[row], step_time, state.total_time), values.begin());
+}
+
 struct NodalVariable {
   int components;
   NodalField evaluate;
@@ -97,6 +106,7 @@ const std::map<std::string_view, NodalVariable> nodal_variables{
     {"AR", {3, angular_acceleration}},
     {"RM", {3, reaction_moment}},
     {"TF", {3, total_force}},
+    {"NT", {1, temperature}},
     {"CPRESS", {1, contact_pressure}},
     {"COPEN", {1, contact_opening}},
     {"CSHEAR", {1, contact_shear}},

@@ -20,6 +20,7 @@
 #include "explicit_timers.hpp"
 #include "mass_scaling.hpp"
 #include "rounding_energy.hpp"
+#include "thermal_strains.hpp"
 
 namespace balocco {
 
@@ -144,6 +145,8 @@ class ExplicitStep {
   ForceScale scale_;
   TimeControl control_;
   ExplicitContact contact_;
+  std::optional<ThermalStrains> thermal_;  // none: nothing of this rank expands
+  bool temperatures_move_ = false;
   bool has_loads_ = false;  // of any rank
   std::optional<Halo> halo_;  // of forces, and of external forces where there are loads
 

@@ -2,6 +2,7 @@
 // and what more an increment brings.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@
 #include "implicit_system.hpp"
 #include "linear_statics.hpp"
 #include "procedures.hpp"
+#include "thermal_strains.hpp"
 
 namespace balocco {
 
@@ -68,6 +70,7 @@ class ImplicitStep {
   void refuse_failures() const;
   double remaining_time() const { return step_.duration() - analysis_.current.step_time; }
 
+  const std::optional<ThermalStrains> thermal_;  // none: nothing expands
   double total_start_ = 0.0;
   ElementFailures failures_;
   bool some_can_fail_ = false;

@@ -1,6 +1,7 @@
 #include "implicit_system.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <cmath>
 
 #include "constraints/rigid_body.hpp"
@@ -26,7 +27,7 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
   if (const auto* dynamic = std::get_if<DynamicProcedure>(&step.procedure))
     dynamics_ = std::make_unique<AlphaMethod>(analysis, map_, dynamic->alpha, has_contact());
   for (const auto& group : analysis.element_groups)
-    unstiffening_rows_.push_back(analysis.current.linear && !step.is_perturbation() ? initial_stress_rows(analysis.model, *group) : std::vector<int>{});
+    unstiffening_rows_.push_back(unstiffening_rows(*group, step));
   analysis_.apply_interactions();
   find_levers();
   find_stabilizing_masses();
@@ -35,6 +36,15 @@ ImplicitSystem::ImplicitSystem(Analysis& analysis, const Step& step, std::span<c
   guides_.aim(analysis_, analysis_.current.step_time, analysis_.current.total_time, analysis_.current.step_time == 0.0);
   begin_increment();
   record_pattern();
+}
+
+/// History that is a force alone, without stiffness: thermal strain about the reference configuration, and an initial stress there unless
+/// modes ask for what it stiffens.
+std::vector<int> ImplicitSystem::unstiffening_rows(const ElementGroup& group, const Step& step) const {
+  if (!analysis_.current.linear) return {};
+  auto rows = thermal_strain_rows(group);
+  if (!step.is_perturbation()) std::ranges::copy(initial_stress_rows(analysis_.model, group), std::back_inserter(rows));
+  return rows;
 }
 
 void ImplicitSystem::find_levers() {

@@ -164,6 +164,7 @@ class ImplicitSystem {
   void turn_into_slot_directions(std::vector<double>& forces) const;
   bool everywhere_sound(bool sound);
   void leave_out_initial_stress(std::size_t group, std::int32_t element, const NodalMotion& motion);
+  std::vector<int> unstiffening_rows(const ElementGroup& group, const Step& step) const;
   void find_levers();
   void find_stabilizing_masses();
   std::span<const NodeMotion> motions_of(std::span<const std::int32_t> nodes);

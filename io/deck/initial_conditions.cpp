@@ -166,18 +166,32 @@ void read_hardening(Builder& builder, const Block& block) {
   }
 }
 
+void read_temperatures(Builder& builder, const Block& block) {
+  auto& temperature = builder.model.initial_temperature;
+  temperature.resize(builder.model.nodes.id.size(), 0.0);
+  for (const auto& line : block.lines) {
+    Row row(builder, block, line);
+    const double value = row.real(1, "temperature");
+    row.at_most(2);
+    std::vector<std::int32_t> nodes;
+    if (!row.ok() || !builder.nodes_of(row.text(0), block, line.location, nodes)) continue;
+    for (const auto node : nodes) temperature[node] = value;
+  }
+}
+
 void read_initial_conditions(Builder& builder, const Block& block) {
   const std::string type = block.value("TYPE");
   if (type == "DISPLACEMENT") return read_displacements(builder, block);
   if (type == "VELOCITY") return read_velocities(builder, block);
   if (type == "ROTATING VELOCITY") return read_rotating_velocities(builder, block);
+  if (type == "TEMPERATURE") return read_temperatures(builder, block);
   type == "STRESS" ? read_stresses(builder, block) : read_hardening(builder, block);
 }
 
 const RegisterKeyword initial{{"INITIAL CONDITIONS",
                                Phase::constraints,
                                Place::model,
-                               {required(choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ROTATING VELOCITY", "STRESS", "HARDENING"}))},
+                               {required(choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ROTATING VELOCITY", "STRESS", "HARDENING", "TEMPERATURE"}))},
                                read_initial_conditions}};
 
 }  // namespace

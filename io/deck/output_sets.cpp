@@ -9,9 +9,12 @@ namespace balocco::deck {
 
 namespace {
 
-/// U or U1..U3 of a vector variable.
+/// NT11, the temperature of a node, is NT; everything else is what it says.
+std::string temperature_or(const std::string& variable) { return variable == "NT11" ? "NT" : variable; }
+
+/// U or U1..U3 of a vector variable, or NT.
 bool is_node_history(const std::string& variable) {
-  if (contains(node_vectors, variable)) return true;
+  if (contains(node_vectors, variable) || variable == "NT") return true;
   return variable.size() > 1 && variable.back() >= '1' && variable.back() <= '3' &&
          contains(node_vectors, variable.substr(0, variable.size() - 1));
 }
@@ -66,8 +69,9 @@ void read_node_field(Builder& builder, const Block& block) {
   auto& output = field_for(builder, &FieldOutput::node_set, *set);
   for (const auto& variable : asked_by_variable(block, preselected_node, node_vectors))
     add(output.node_variables, variable);
-  each_variable(builder, block, [&](const std::string& variable, Row& row) {
-    if (!contains(node_vectors, variable)) return unknown_variable(builder, block, row, variable, node_vectors);
+  each_variable(builder, block, [&](const std::string& said, Row& row) {
+    const std::string variable = temperature_or(said);
+    if (variable != "NT" && !contains(node_vectors, variable)) return unknown_variable(builder, block, row, variable, node_vectors);
     add(output.node_variables, variable);
   });
 }
@@ -79,7 +83,8 @@ void read_node_history(Builder& builder, const Block& block) {
   HistoryOutput::Nodes request;
   request.set = *set;
   request.variables = asked_by_variable(block, preselected_node, node_vectors);
-  each_variable(builder, block, [&](const std::string& variable, Row& row) {
+  each_variable(builder, block, [&](const std::string& said, Row& row) {
+    const std::string variable = temperature_or(said);
     if (!is_node_history(variable)) return unknown_variable(builder, block, row, variable, node_vectors);
     add(request.variables, variable);
   });

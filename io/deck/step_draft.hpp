@@ -30,9 +30,10 @@ struct StepDraft {
   std::string amplitude;  // *STEP, AMPLITUDE=
   std::int32_t changed_interaction = -1;  // row of Step::changed_interactions: what *FRICTION and *SURFACE BEHAVIOR speak of
   bool faulty = false;  // a block of it was refused: what that leaves missing is not told
-  bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false;  // OP=NEW seen
+  bool boundary_renewed = false, concentrated_renewed = false, distributed_renewed = false, temperature_renewed = false;  // OP=NEW seen
   std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary
   std::unordered_map<std::int64_t, std::size_t> concentrated_of;  // key_of() -> row of Step::concentrated_loads
+  std::unordered_map<std::int32_t, std::size_t> temperature_of;   // node -> row of Step::temperatures
   static std::int64_t key_of(std::int32_t node, std::int32_t dof, bool follower) {
     return std::int64_t{node} * 12 + dof + (follower ? 6 : 0);
   }

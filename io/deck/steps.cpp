@@ -69,6 +69,7 @@ void inherit(Builder& builder, Step& step) {
   step.concentrated_loads = before.concentrated_loads;
   step.pressures = before.pressures;
   step.body_loads = before.body_loads;
+  step.temperatures = before.temperatures;
   step.connector_motions = before.connector_motions;
   for (auto& motion : step.connector_motions) propagate(model, motion.course, before.duration());
   step.connector_loads = before.connector_loads;
@@ -95,6 +96,10 @@ void inherit(Builder& builder, Step& step) {
   settle(step.pressures);
   settle(step.body_loads);
   settle(step.connector_loads);
+  for (auto& temperature : step.temperatures) {
+    temperature.previous = reached(model, temperature, before.duration(), total);
+    hold(model, temperature, before.duration());
+  }
 }
 
 void index_nodes(Builder& builder) {
@@ -106,6 +111,7 @@ void index_nodes(Builder& builder) {
     const auto& load = step.concentrated_loads[row];
     builder.draft.concentrated_of[StepDraft::key_of(load.node, load.dof, load.follower)] = row;
   }
+  for (std::size_t row = 0; row < step.temperatures.size(); ++row) builder.draft.temperature_of[step.temperatures[row].node] = row;
 }
 
 void begin_step(Builder& builder, const Block& block) {

@@ -230,6 +230,10 @@ void Writer::loads(const Step& step) {
     head(load.follower ? "*CLOAD, FOLLOWER" : "*CLOAD", load.amplitude);
     line("{}, {}, {}", node_id(load.node), load.dof + 1, said(load));
   }
+  for (const auto& temperature : step.temperatures) {
+    head("*TEMPERATURE", temperature.amplitude);
+    line("{}, {}", node_id(temperature.node), temperature.magnitude);
+  }
   for (const auto& load : step.pressures) {
     if (!is_said(load)) continue;
     head("*DSLOAD", load.amplitude);

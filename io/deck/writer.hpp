@@ -56,6 +56,7 @@ class Writer {
   void rigid_bodies();
   void contact();
   void initial_displacements();
+  void initial_temperatures();
   void initial_velocities();
   void initial_fields();
 

@@ -58,6 +58,7 @@ struct ElementEnergies {
   double hourglass = 0.0;   // artificial
   double viscous = 0.0;     // dissipated by bulk viscosity and stiffness-proportional damping
   double plastic = 0.0;     // dissipated by plasticity
+  double heat = 0.0;        // work done by thermal expansion (EnergyDensity)
 };
 
 /// Bounds, over a step, of what an element without mass of its own (a spring, a dashpot) does to each node that it holds.

@@ -14,4 +14,12 @@ std::span<const int> initial_stress_components(const Model& model, const Element
 /// Components of an element's history that are its points' initial stress; empty: it has none.
 std::vector<int> initial_stress_rows(const Model& model, const ElementGroup& group);
 
+/// Components of an element's history that are its points' thermal strain (materials/expanding.hpp); empty: it has none.
+inline std::vector<int> thermal_strain_rows(const ElementGroup& group) {
+  std::vector<int> rows;
+  for (int point = 0; point < group.integration_points(); ++point)
+    if (const int row = group.law_field_row("THE", point); row >= 0) rows.push_back(row);
+  return rows;
+}
+
 }  // namespace balocco

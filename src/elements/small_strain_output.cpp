@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "elements/initial_stress_rows.hpp"
 #include "elements/membranes/membrane_output.hpp"
@@ -19,10 +20,12 @@ bool is_energy(std::string_view variable) { return variable == "SENER" || variab
 
 }  // namespace
 
-/// Initial stresses without stiffness: in linear steps but perturbations.
+/// History without stiffness in linear steps: thermal strains, and but in perturbations initial stresses.
 std::vector<int> SmallStrainOutput::unstiffening_rows(const ElementGroup& group, const State& state) const {
   const bool perturbs = state.step < static_cast<std::int32_t>(model_.steps.size()) && model_.steps[state.step].is_perturbation();
-  return perturbs ? std::vector<int>{} : initial_stress_rows(model_, group);
+  auto rows = thermal_strain_rows(group);
+  if (!perturbs) std::ranges::copy(initial_stress_rows(model_, group), std::back_inserter(rows));
+  return rows;
 }
 
 /// Part of the displacement that strains the element by about the sampling strain; 0 where nothing moves.
@@ -139,10 +142,11 @@ ElementEnergies SmallStrainOutput::energies(const ElementGroup& group, std::int3
     sample[1] = energies.hourglass;
     sample[2] = energies.viscous;
     sample[3] = energies.plastic;
+    sample[4] = energies.heat;
   };
-  std::array<double, 4> values{};
+  std::array<double, 5> values{};
   expand(group, element, state, history, evaluate, 2, values);
-  return {.strain = values[0], .hourglass = values[1], .viscous = values[2], .plastic = values[3]};
+  return {.strain = values[0], .hourglass = values[1], .viscous = values[2], .plastic = values[3], .heat = values[4]};
 }
 
 }  // namespace balocco

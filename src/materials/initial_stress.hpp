@@ -6,6 +6,7 @@
 #include <string_view>
 #include <utility>
 
+#include "materials/expanding.hpp"
 #include "materials/material_law.hpp"
 #include "model/model.hpp"
 
@@ -21,10 +22,12 @@ constexpr int initial_stress_size(PointKind kind) { return kind == PointKind::so
 template <PointKind kind>
 std::unique_ptr<Law<kind>> initially_stressed(std::unique_ptr<Law<kind>> law);
 
-/// The law of a material, with an initial stress where the section says so. Null as make_law.
+/// The law of a material, which expands with temperature if the material does, with an initial stress where the section says so.
+/// Null as make_law.
 template <PointKind kind>
 std::unique_ptr<Law<kind>> law_of_section(const Material& material, const Section& section) {
   auto law = make_law<kind>(material);
+  if (law != nullptr && material.expansion) law = expanding(std::move(law));
   return law != nullptr && section.initially_stressed ? initially_stressed(std::move(law)) : std::move(law);
 }
 

@@ -60,6 +60,8 @@ class Checker {
   void check_materials();
   void check_options(const Material& material, const MaterialLaw& law);
   void check_laws_of_sections();
+  void check_expansion(const Section& section, const Material& material, bool composite);
+  void check_temperatures(const Step& step);
   void check_law(const Section& section, std::int32_t material);
   void check_rigid_bodies();
   void check_initial_fields();
@@ -236,10 +238,39 @@ void Checker::check_initial_fields() {
     }
 }
 
+/// Thermal strain is a matter of laws that are evaluated at points (materials/expanding.hpp).
+void Checker::check_expansion(const Section& section, const Material& material, bool composite) {
+  const bool expands = section.kind == Section::Kind::solid || section.kind == Section::Kind::truss ||
+                       (section.kind == Section::Kind::membrane && !composite);
+  if (!material.expansion || expands) return;
+  error(section.location, fmt::format("*{}: its material {} has *EXPANSION, which is followed in solids, trusses and membranes of one "
+                                      "material; take *EXPANSION out, or model the part with solids",
+                                      section.kind == Section::Kind::membrane ? "MEMBRANE SECTION"
+                                      : section.kind == Section::Kind::beam   ? "BEAM SECTION"
+                                                                              : "SHELL SECTION",
+                                      material.name));
+}
+
+/// Perturbations know no thermal loads, and another job's state does not say at which temperatures it was left.
+void Checker::check_temperatures(const Step& step) {
+  if (step.temperatures.empty()) return;
+  const auto& first = step.temperatures.front();
+  const auto refuse = [&](const std::string& text) { error({first.file, first.line}, "*TEMPERATURE: " + text); };
+  if (std::ranges::none_of(model_.materials, [](const auto& material) { return material.expansion.has_value(); })) return;
+  const auto moves = [](const NodalTemperature& said) { return said.magnitude != said.previous; };
+  if (step.is_perturbation() && std::ranges::any_of(step.temperatures, moves))
+    refuse(fmt::format("step {} of {} does not count thermal strains; use *STATIC or *DYNAMIC, or give the job no temperatures",
+                       step.name, step.procedure_name()));
+  if ((model_.state_import && model_.state_import->state) || model_.restart_read)
+    refuse("the temperatures at which the other job ended are not known; a job that goes on from another keeps its thermal strains as they "
+           "are: remove it");
+}
+
 void Checker::check_law(const Section& section, std::int32_t material) {
   const MaterialLaw* law = find_material_law(model_.materials[material].law);
   if (law == nullptr) return;  // told
   const bool composite = !section.plies.empty();
+  check_expansion(section, model_.materials[material], composite);
   const bool fits = section.kind == Section::Kind::solid   ? law->solid != nullptr
                     : section.kind == Section::Kind::truss ? law->line != nullptr
                     : section.kind == Section::Kind::beam  ? law->line != nullptr && law->lamina_stiffness != nullptr
@@ -355,6 +386,7 @@ void Checker::check_step(const Step& step) {
   }
   check_boundary(step);
   check_loads(step);
+  check_temperatures(step);
 }
 
 }  // namespace

@@ -16,6 +16,7 @@
 #include "model/interaction.hpp"
 #include "model/location.hpp"
 #include "model/step.hpp"
+#include "model/thermal_expansion.hpp"
 
 namespace balocco {
 
@@ -115,6 +116,7 @@ struct Material {
   std::vector<double> parameters;  // in the order in which the law declares them
   bool instantaneous = false;      // MODULI=INSTANTANEOUS: `parameters` hold before, not after *VISCOELASTIC has relaxed
   std::vector<MaterialOption> options;  // in deck order
+  std::optional<ThermalExpansion> expansion;  // *EXPANSION
   Location location;
 };
 
@@ -318,6 +320,7 @@ struct Model {
   std::vector<ContactPair> contact_pairs;
   std::vector<InitialVelocity> initial_velocities;
   std::vector<InitialField> initial_fields;
+  std::vector<double> initial_temperature;  // a node row: at which matter is free of thermal strain; empty: 0 everywhere
   std::optional<StateImport> state_import;
   std::optional<RestartRead> restart_read;
   std::vector<Step> steps;

@@ -80,6 +80,15 @@ struct BodyLoad {
   std::int32_t file = -1, line = 0;
 };
 
+/// *TEMPERATURE of a node. Nodes that a step has none for are at their initial temperature (Model::initial_temperature).
+struct NodalTemperature {
+  std::int32_t node = -1;
+  double magnitude = 0.0;
+  double previous = 0.0;  // reached at the end of the previous step: where a static ramp starts
+  std::int32_t amplitude = -1;
+  std::int32_t file = -1, line = 0;
+};
+
 /// Nodes fixed to a rigid body, or released from it, where they stand when the step starts.
 struct RigidAttachment {
   std::int32_t rigid_body = -1;  // row of Model::rigid_bodies
@@ -294,6 +303,7 @@ struct Step {
   std::vector<ConcentratedLoad> concentrated_loads;
   std::vector<PressureLoad> pressures;
   std::vector<BodyLoad> body_loads;
+  std::vector<NodalTemperature> temperatures;  // one a node
   std::vector<ConnectorMotion> connector_motions;
   std::vector<ConnectorLoad> connector_loads;
   std::vector<std::int32_t> active_contact_pairs;  // rows of Model::contact_pairs, after *MODEL CHANGE

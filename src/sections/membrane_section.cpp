@@ -58,7 +58,7 @@ MembraneSection membrane_section(const Model& model, const Section& section) {
     result.thickness = section.thickness;
     result.density = material.density;
     result.damping_beta = material.damping_beta;
-    result.linear = find_material_law(material.law)->lamina_stiffness != nullptr && material.options.empty();
+    result.linear = find_material_law(material.law)->lamina_stiffness != nullptr && material.options.empty() && !material.expansion;
     add_initial_moduli(result);
     for (int i = 0; i < 9; ++i) result.damping_stiffness[i] = material.damping_beta * result.initial_stiffness[i];
   }

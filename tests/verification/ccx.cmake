@@ -1,7 +1,7 @@
 # The same decks as CalculiX 2.20: its printed results stand beside them in ccx/, so that it need not be installed.
 verification_cases(ccx 120 elastic rubber loads sheets bars tripod faces)
 # Decks whose every printed table is that of CalculiX, on one rank and on two.
-verification_cases(ccx_print 120 held_loads sudden_loads dummy_node removed_elements equation_totals)
+verification_cases(ccx_print 120 held_loads sudden_loads dummy_node removed_elements equation_totals heated)
 # Decks of CalculiX's own suite, where a copy lies beside the source tree; skipped elsewhere. CCX.md tells of all of them.
 foreach(case truss fricloop beamnldye beamnldype)
   add_test(NAME ccx_suite_${case}

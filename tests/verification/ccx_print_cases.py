@@ -21,6 +21,7 @@ TOLERANCE = {
     "dummy_node": 1e-6,
     "removed_elements": 1e-6,
     "equation_totals": 1e-6,
+    "heated": 1e-6,  # temperatures of the points of C3D8I, C3D20, C3D20R, C3D10 and C3D15, and an alpha that varies
 }
 
 

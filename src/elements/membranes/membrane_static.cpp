@@ -154,6 +154,7 @@ ElementEnergies MembraneGroup<corners, points>::energies(std::int32_t element, c
     result.strain += Kernel::volume(data, q) * density.recoverable;
     result.plastic += Kernel::volume(data, q) * density.plastic;
     result.viscous += Kernel::volume(data, q) * density.viscous;
+    result.heat += Kernel::volume(data, q) * density.heat;
     if constexpr (Layout::one_point_quadrilateral) result.hourglass += Kernel::hourglass_energy(data, tangents, edge);
   }
   result.viscous += history[dissipation_row()];

@@ -209,6 +209,7 @@ template <class Shape>
       of_lanes[lane].strain += volume[lane] * density[lane].recoverable;
       of_lanes[lane].plastic += volume[lane] * density[lane].plastic;
       of_lanes[lane].viscous += volume[lane] * density[lane].viscous;
+      of_lanes[lane].heat += volume[lane] * density[lane].heat;
     }
   }
 }

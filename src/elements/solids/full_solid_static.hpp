@@ -109,6 +109,7 @@ ElementEnergies FullSolid<Shape>::energies(std::int32_t element, const NodalMoti
     energies.strain += volume * density.recoverable;
     energies.plastic += volume * density.plastic;
     energies.viscous += volume * density.viscous;
+    energies.heat += volume * density.heat;
   }
   return energies;
 }

@@ -59,7 +59,8 @@ class ReducedBrick final : public ElementGroup {
     return {.strain = volume * density.recoverable,
             .hourglass = hourglass,
             .viscous = dissipation + volume * density.viscous,
-            .plastic = volume * density.plastic};
+            .plastic = volume * density.plastic,
+            .heat = volume * density.heat};
   }
   /// Energy of the hourglass stresses, with what their flow has dissipated; `history(k)`: component k of the element's history.
   template <class T, class Reference>

@@ -41,6 +41,8 @@ Eigen::Matrix3d cauchy_stress(const SolidMaterial& material, const Matrix3<doubl
 std::array<double, 6> plastic_strain_of(const SolidMaterial& material, const Matrix3<double>& f, std::span<const double> law_history) {
   std::array<double, 6> strain, stress;
   copy_symmetric(logarithmic_strain(as_eigen(f)), 2.0, strain);
+  if (const int row = history_scalar(*material.law, "THE"); row >= 0)
+    for (int a = 0; a < 3; ++a) strain[a] -= std::log1p(law_history[row]);
   copy_symmetric(cauchy_stress(material, f, law_history), 1.0, stress);
   const double lame = material.stiffness[1], shear = material.stiffness[21];
   return plastic_strain(strain, stress, shear * (3.0 * lame + 2.0 * shear) / (lame + shear), 0.5 * lame / (lame + shear));

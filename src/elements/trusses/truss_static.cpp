@@ -60,6 +60,7 @@ ElementEnergies TrussGroup::energies(std::int32_t element, const NodalMotion& mo
   result.strain = volume * density.recoverable;
   result.plastic = volume * density.plastic;
   result.viscous = history[dissipation_row()] + volume * density.viscous;
+  result.heat = volume * density.heat;
   return result;
 }
 

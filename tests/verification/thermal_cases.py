@@ -1,0 +1,165 @@
+"""Temperatures through the whole program: thermal_cases.py CASE PROGRAM FOLDER."""
+import os
+import sys
+
+import numpy as np
+
+from static_model import Deck, Runner, brick, close
+
+YOUNG, POISSON, ALPHA, HEAT = 2.0e5, 0.3, 1.2e-5, 200.0
+MATERIAL = """
+*SOLID SECTION, ELSET=ALL, MATERIAL=M
+*MATERIAL, NAME=M
+*ELASTIC
+%g, %g
+*EXPANSION
+%g
+*DENSITY
+7.8e-9
+""" % (YOUNG, POISSON, ALPHA)
+OUTPUT = """
+*OUTPUT, FIELD, FREQUENCY=1, PRECISION=DOUBLE
+*NODE OUTPUT
+U, RF, NT
+*ELEMENT OUTPUT
+S, THE
+*OUTPUT, HISTORY, FREQUENCY=1
+*ENERGY OUTPUT
+ALLSE, ALLWK, ALLKE, ETOTAL
+"""
+FINITE, LINEAR = ", NLGEOM", ""
+
+
+def block(kind="C3D8R", counts=(3, 2, 2), lengths=(3.0, 2.0, 2.0)):
+    deck = brick(counts, lengths, kind)
+    deck.sets["EVERY"] = list(deck.nodes)
+    for axis, name in enumerate("XYZ"):
+        deck.sets[name + "0"] = deck.where(lambda *x: x[axis] < 1e-9)
+        deck.sets[name + "1"] = deck.where(lambda *x: x[axis] > lengths[axis] - 1e-9)
+    return deck
+
+
+def step(geometry, boundary, temperature, procedure="*STATIC\n1., 1."):
+    return "*STEP%s\n%s\n%s\n%s\n%s*END STEP" % (geometry, procedure, boundary, temperature, OUTPUT)
+
+
+ROLLERS = "*BOUNDARY\nX0, 1, 1\nY0, 2, 2\nZ0, 3, 3"
+
+
+def free(runner):
+    """A block on rollers: no stress, and each edge longer by alpha dT, in one or in two steps, about an initial temperature."""
+    for kind in ("C3D8R", "C3D8", "C3D8I"):
+        for geometry in (LINEAR, FINITE):
+            deck = block(kind)
+            deck.add(MATERIAL + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 20.")
+            deck.add(step(geometry, ROLLERS, "*TEMPERATURE\nEVERY, %g" % (20.0 + HEAT)))
+            deck.add(step(geometry, "", "*TEMPERATURE, OP=NEW"))
+            results = runner.run_alike("free_%s%s" % (kind, "_finite" if geometry else ""), deck)
+            far = deck.node_at((3.0, 2.0, 2.0))
+            for axis, length in enumerate((3.0, 2.0, 2.0)):
+                close(results.at(far, "U")[axis], length * ALPHA * HEAT, 1e-9, "%s: displacement %d" % (kind, axis + 1))
+            close(np.abs(results.element(kind, "S")).max() / (YOUNG * ALPHA * HEAT), 0.0, 1e-8, "stress")
+            close(results.at(far, "NT"), 20.0 + HEAT, 1e-14, "temperature")
+            close(np.abs(results.element(kind, "THE") - ALPHA * HEAT).max(), 0.0, 1e-17, "thermal strain")
+            close(np.abs(results.at(far, "U", 2)).max(), 0.0, 1e-10, "displacement when cold again")
+            energy = results.file["step_1/history/energy"]
+            close(energy["ETOTAL"][-1], 0.0, 1e-9, "energy balance")
+
+
+def saint_venant(stretch):
+    """Cauchy stress of a bar of St. Venant-Kirchhoff matter, free across, for its mechanical stretch along."""
+    green = 0.5 * (stretch ** 2 - 1.0)
+    across = 1.0 - 2.0 * POISSON * green
+    return YOUNG * green * stretch / across
+
+
+def clamped(runner):
+    """A bar between walls: -E alpha dT; at finite strain the law's Cauchy stress at the stretch 1 / (1 + alpha dT)."""
+    for kind in ("C3D8R", "C3D8", "C3D8I"):
+        for geometry, expected in ((LINEAR, -YOUNG * ALPHA * HEAT), (FINITE, saint_venant(1.0 / (1.0 + ALPHA * HEAT)))):
+            deck = block(kind)
+            deck.add(MATERIAL)
+            deck.add(step(geometry, ROLLERS + "\nX1, 1, 1", "*TEMPERATURE\nEVERY, %g" % HEAT))
+            results = runner.run_alike("clamped_%s%s" % (kind, "_finite" if geometry else ""), deck)
+            for stress in results.element(kind, "S"):
+                close(stress[0], expected, 1e-8, "%s: S11" % kind)
+            close(np.abs(results.element(kind, "S")[:, 1:]).max() / abs(expected), 0.0, 1e-8, "other stresses")
+            energy = results.file["step_1/history/energy"]
+            close(energy["ETOTAL"][-1] / energy["ALLSE"][-1], 0.0, 1e-2 if geometry else 1e-8, "energy balance")
+    deck = Deck()
+    deck.add_node(1, 0.0, 0.0, 0.0)
+    deck.add_node(2, 1.0, 0.0, 0.0)
+    deck.elements["T3D2"] = [(1, (1, 2))]
+    deck.sets["EVERY"] = [1, 2]
+    deck.add(MATERIAL.replace("MATERIAL=M\n", "MATERIAL=M\n1.\n", 1))
+    deck.add(step(LINEAR, "*BOUNDARY\nEVERY, 1, 3", "*TEMPERATURE\nEVERY, %g" % HEAT))
+    close(runner.run("truss", deck).element("T3D2", "S")[0][0], -YOUNG * ALPHA * HEAT, 1e-9, "S11 of a truss")
+
+
+def table(runner):
+    """alpha(T) between rows and beyond them, from ZERO, less what the initial temperature has; a curve leads there."""
+    deck = block()
+    deck.add(MATERIAL.replace("*EXPANSION\n%g" % ALPHA, "*EXPANSION, ZERO=10.\n1e-5, 0.\n2e-5, 100.\n2.5e-5, 200."))
+    deck.add("*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 50.\n*AMPLITUDE, NAME=CURVE\n0., 0., 1., 1.")
+    deck.add(step(LINEAR, ROLLERS, "*TEMPERATURE, AMPLITUDE=CURVE\nEVERY, 150."))
+    deck.add(step(LINEAR, "", "*TEMPERATURE\nEVERY, 300."))
+    results = runner.run_alike("table", deck)
+    before = 1.5e-5 * (50.0 - 10.0)
+    close(results.element("C3D8R", "THE", 1)[0], 2.25e-5 * 140.0 - before, 1e-12, "between rows")
+    close(results.element("C3D8R", "THE", 2)[0], 2.5e-5 * 290.0 - before, 1e-12, "beyond them")
+
+
+def membrane(runner):
+    """A sheet held all around: -E alpha dT / (1 - nu)."""
+    deck = Deck()
+    for number, x in enumerate(((0, 0), (1, 0), (1, 1), (0, 1)), 1):
+        deck.add_node(number, float(x[0]), float(x[1]), 0.0)
+    deck.elements["M3D4"] = [(1, (1, 2, 3, 4))]
+    deck.sets["EVERY"] = [1, 2, 3, 4]
+    deck.add(MATERIAL.replace("*SOLID SECTION, ELSET=ALL, MATERIAL=M", "*MEMBRANE SECTION, ELSET=ALL, MATERIAL=M\n0.1"))
+    deck.add(step(LINEAR, "*BOUNDARY\nEVERY, 1, 3", "*TEMPERATURE\nEVERY, %g" % HEAT))
+    results = runner.run("membrane", deck)
+    for axis in (0, 1):
+        close(results.element("M3D4", "S")[0][axis], -YOUNG * ALPHA * HEAT / (1.0 - POISSON), 1e-8, "S%d%d" % (axis + 1, axis + 1))
+
+
+def explicit(runner):
+    """The bar between walls, heated smoothly over many periods: the static stress, the energy in balance, and bits that do not depend
+    on the number of ranks."""
+    deck = block("C3D8R", (6, 2, 2), (6.0, 2.0, 2.0))
+    deck.add(MATERIAL + "*AMPLITUDE, NAME=SLOW, DEFINITION=SMOOTH STEP\n0., 0., 2e-4, 1.")
+    deck.add(step("", ROLLERS + "\nX1, 1, 1", "*TEMPERATURE, AMPLITUDE=SLOW\nEVERY, %g" % HEAT, "*DYNAMIC, EXPLICIT\n, 2e-4").replace(
+        "FREQUENCY=1, PRECISION", "NUMBER INTERVAL=2, PRECISION").replace("HISTORY, FREQUENCY=1", "HISTORY, TIME INTERVAL=1e-5"))
+    runs = [runner.run("explicit", deck, ranks) for ranks in (1, 2, 3)]
+    expected = saint_venant(1.0 / (1.0 + ALPHA * HEAT))
+    for stress in runs[0].element("C3D8R", "S"):
+        close(stress[0], expected, 2e-3, "S11")
+    energy = runs[0].file["step_1/history/energy"]
+    close(np.abs(energy["ETOTAL"][:]).max() / energy["ALLSE"][-1], 0.0, 1e-4, "energy balance")
+    close(energy["ALLKE"][-1] / energy["ALLSE"][-1], 0.0, 1e-4, "kinetic energy")
+    for other in runs[1:]:
+        assert (runs[0].node("U") == other.node("U")).all(), "bits depend on the number of ranks"
+
+
+def refused(runner):
+    """What is not followed is refused with its place in the deck."""
+    def refusal(name, change, text):
+        deck = block()
+        deck.add(change(MATERIAL))
+        deck.add(step(LINEAR, ROLLERS, "*TEMPERATURE\nEVERY, 1." if name != "file" else "*TEMPERATURE, FILE=OTHER\nEVERY, 1."))
+        done, _ = runner.launch(name, deck, 1)
+        message = done.stdout + done.stderr
+        assert done.returncode != 0 and text in message and ".inp:" in message, message
+        print(name, "is refused")
+
+    refusal("ortho", lambda text: text.replace("*EXPANSION\n", "*EXPANSION, TYPE=ORTHO\n"), "TYPE")
+    refusal("falling", lambda text: text.replace("*EXPANSION\n%g" % ALPHA, "*EXPANSION\n1e-5, 100.\n2e-5, 50."), "rising")
+    refusal("file", lambda text: text, "FILE")
+
+
+CASES = {case.__name__: case for case in (free, clamped, table, membrane, explicit, refused)}
+
+if __name__ == "__main__":
+    name, program, folder = sys.argv[1:4]
+    os.makedirs(folder, exist_ok=True)
+    CASES[name](Runner(program, folder))
