@@ -31,6 +31,7 @@ struct BackStress {
 };
 
 struct J2Plasticity {
+  static constexpr bool compiled_whole = true;  // law_of.hpp
   static constexpr int most_back_stresses = 4;
   static constexpr bool bounds_spatial_gradient = true;
   double bulk, shear;
