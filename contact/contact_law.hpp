@@ -191,7 +191,7 @@ ContactForce<T> contact_force(const MasterSurface& surface, const PenaltyParamet
   if (parameters.law != nullptr && point.multiplier > 0.0)
     point.multiplier = std::clamp(parameters.lacking_force(value_of(nearest.distance)), 0.0, point.multiplier);
   const T pressure = parameters.normal_force(point.multiplier, nearest.distance);
-  if (!(value_of(pressure) > 0.0)) {
+  if (value_of(pressure) <= 0.0) {  // what is not a number must be seen by the solver
     open(point, values);
     return force;
   }

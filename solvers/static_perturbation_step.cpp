@@ -184,7 +184,7 @@ Outcome StaticPerturbationStep::run() {
   if (state.linear) system_.restore(system_.reference());
   respond();
   analysis_.small_strain().perturb(
-      std::make_shared<SmallStrainOutput::Base>(state.position, state.orientation, state.rotation));
+      std::make_shared<SmallStrainOutput::Base>(state.position, state.orientation, state.rotation, state.linear));
   state.linear = true;
   state.increment = 1;
   state.step_time = step_.duration();

@@ -1,10 +1,13 @@
 #include "thermal_strains.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 
 #include "elements/element_type.hpp"
 #include "elements/initial_stress_rows.hpp"
+#include "model/diagnostics.hpp"
 #include "step_driver.hpp"
 
 namespace balocco {
@@ -72,8 +75,7 @@ ThermalStrains::ThermalStrains(const Analysis& analysis) {
 }
 
 void ThermalStrains::set(Analysis& analysis, const Step& step, double step_time, double total_time) const {
-  const bool goes_on = analysis.model.state_import.has_value() || analysis.model.restart_read.has_value();
-  if (goes_on && step.temperatures.empty()) return;  // thermal strains came with the state of another job
+  if (analysis.keeps_thermal_strains && step.temperatures.empty()) return;  // thermal strains came with the state of another job
   const auto temperature = nodal_temperatures(analysis, step, step_time, total_time);
   const auto& initial = analysis.model.initial_temperature;
   for (const auto& heated : groups_) {
@@ -90,7 +92,12 @@ void ThermalStrains::set(Analysis& analysis, const Step& step, double step_time,
           if (!initial.empty()) before += weight * initial[analysis.domain.node_row[nodes[i]]];
         }
         const std::size_t row = static_cast<std::size_t>(heated.rows[point]);
-        history[row * lanes + lane] = heated.expansion->strain(now, before);
+        const double strain = heated.expansion->strain(now, before);
+        if (!analysis.current.linear && !(strain > -1.0) && lane < group.size())
+          throw AnalysisError(fmt::format("element {} at the temperature {:.6g} has the thermal strain {:.6g}: nothing is left of it; correct "
+                                          "*EXPANSION or *TEMPERATURE",
+                                          analysis.model.elements[group.table()].id[group.row(lane)], now, strain));
+        history[row * lanes + lane] = strain;
         history[(row + 1) * lanes + lane] = analysis.current.linear ? 1.0 : 0.0;
       }
     }

@@ -83,6 +83,18 @@ PointStresses stresses_before_update(const std::string& path, const Analysis& up
   return stresses_of_imported_solids(before);
 }
 
+/// Another job's state does not say at which temperatures it was left.
+void keep_thermal_strains(const Command& command, Analysis& analysis) {
+  analysis.keeps_thermal_strains = true;
+  const Model& model = analysis.model;
+  if (std::ranges::none_of(model.materials, [](const auto& material) { return material.expansion.has_value(); })) return;
+  for (const Step& step : model.steps)
+    if (!step.temperatures.empty())
+      throw InputError(fmt::format("{}: error: *TEMPERATURE: the temperatures at which {} ended are not known; a job that goes on from another "
+                                   "keeps its thermal strains as they are: remove it",
+                                   model.where({step.temperatures.front().file, step.temperatures.front().line}), command.import_from));
+}
+
 /// Where *RESTART, READ goes on, or at time zero: whole, or what *IMPORT names.
 void start_from_another_job(const Command& command, Analysis& analysis) {
   const auto arguments = [&](auto import) {
@@ -96,9 +108,11 @@ void start_from_another_job(const Command& command, Analysis& analysis) {
     return;
   } else if (import) {
     if (import->update) start_from_stresses(stresses_before_update(command.import_from, analysis), analysis);
+    keep_thermal_strains(command, analysis);
     const auto summary = arguments(import_state);
     if (analysis.communicator.is_root()) fmt::print("{}\n", summary);
   } else {
+    keep_thermal_strains(command, analysis);
     arguments(import_checkpoint);
   }
   analysis.take_up_checkpoint();

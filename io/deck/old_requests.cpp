@@ -1,5 +1,5 @@
 // What cannot change results, accepted with a warning: output requests for files that Balocco does not write, and thermal properties
-// where there are no temperatures.
+// where no heat flows.
 #include "deck/register.hpp"
 
 namespace balocco::deck {
@@ -21,21 +21,20 @@ const RegisterKeyword file_format{old_request("FILE FORMAT")}, node_file{old_req
     contact_file{old_request("CONTACT FILE")}, energy_print{old_request("ENERGY PRINT")},
     energy_file{old_request("ENERGY FILE")}, file_output{old_request("FILE OUTPUT")}, print{old_request("PRINT")}, diagnostics{old_request("DIAGNOSTICS")};
 
-/// Options of *MATERIAL that act where temperatures change, which they do nowhere here.
+/// Options of *MATERIAL that act where heat flows, which it does nowhere here: temperatures are given.
 KeywordRule thermal(const char* keyword) {
   return {.keyword = keyword,
           .place = Place::model,
           .parent = "MATERIAL",
-          .warning = "there are no temperatures here: it has nothing to act on",
+          .warning = "no heat flows here: it has nothing to act on",
           .any_parameter = true};
 }
 
-const RegisterKeyword expansion{thermal("EXPANSION")}, conductivity{thermal("CONDUCTIVITY")},
-    specific_heat{thermal("SPECIFIC HEAT")};
+const RegisterKeyword conductivity{thermal("CONDUCTIVITY")}, specific_heat{thermal("SPECIFIC HEAT")};
 const RegisterKeyword physical_constants{
     {.keyword = "PHYSICAL CONSTANTS",
      .place = Place::model,
-     .warning = "there are no temperatures, charges or radiation here: it has nothing to act on",
+     .warning = "there are no charges, radiation or absolute temperatures here: it has nothing to act on",
      .any_parameter = true}};
 
 }  // namespace

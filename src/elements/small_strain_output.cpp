@@ -20,9 +20,10 @@ bool is_energy(std::string_view variable) { return variable == "SENER" || variab
 
 }  // namespace
 
-/// History without stiffness in linear steps: thermal strains, and but in perturbations initial stresses.
+/// History without stiffness about the reference configuration: thermal strains, and but in perturbations initial stresses.
 std::vector<int> SmallStrainOutput::unstiffening_rows(const ElementGroup& group, const State& state) const {
   const bool perturbs = state.step < static_cast<std::int32_t>(model_.steps.size()) && model_.steps[state.step].is_perturbation();
+  if (base_ && !base_->linear) return {};
   auto rows = thermal_strain_rows(group);
   if (!perturbs) std::ranges::copy(initial_stress_rows(model_, group), std::back_inserter(rows));
   return rows;

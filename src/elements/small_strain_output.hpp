@@ -19,6 +19,7 @@ class SmallStrainOutput {
   /// What a perturbation is about, 4 values a node: places, with a scratch node behind them, and of nodes that turn.
   struct Base {
     std::vector<double> position, orientation, rotation;
+    bool linear = false;  // the reference configuration
   };
 
   /// `reference`: where the nodes are in the reference configuration, 4 values a node and a scratch node behind them.

@@ -42,15 +42,8 @@ class Expanding final : public Law<kind> {
   using Values = std::array<double, n>;
 
   explicit Expanding(std::unique_ptr<Law<kind>> law) : law_(std::move(law)), own_(law_->history_size()) {
-    Values undeformed{}, stress;
-    if constexpr (kind == PointKind::solid)
-      for (int k = 0; k < n; ++k) undeformed[k] = stretched<kind>(k);
-    std::array<double, n * n> stiffness;
-    std::vector<double> history(static_cast<std::size_t>(own_), 0.0);
-    law_->tangent(undeformed, 0.0, history, stress, stiffness);
-    for (int i = 0; i < n; ++i)
-      for (int k = 0; k < n; ++k) modulus_[i] += stiffness[n * i + k] * stretched<kind>(k);
-    for (int k = 0; k < n; ++k) modulus_of_volume_ += modulus_[k] * stretched<kind>(k);
+    for (const auto& field : law_->history_fields())
+      if (field.name == "S0") stressed_ = field;
   }
 
   int history_size() const override { return own_ + rows; }
@@ -78,7 +71,7 @@ class Expanding final : public Law<kind> {
     law_->energy_densities(points, points.history, points.history_stride, energy);
     for (int point = points.first; point < points.first + points.count; point += pack_size) {
       const Pack theta = 1.0 + read(thermal, point);
-      Pack stored([&](int lane) { return energy[point - points.first + lane].recoverable; }), contraction(0.0);
+      Pack stored([&](int lane) { return whole_energy(energy[point - points.first + lane]); }), contraction(0.0);
       for (int k = 0; k < n; ++k) {
         const Pack whole = whole_stress<kind>(load(&points.stress[k][point]), theta), part = load(&points.strain[k][point]);
         contraction += contracted(whole, part, k);
@@ -102,11 +95,13 @@ class Expanding final : public Law<kind> {
     double now = 0.0;
     if (state[linear] != 0.0) {
       law_->tangent(strain, increment, own, stress, stiffness);
-      for (int k = 0; k < n; ++k) {
-        now -= modulus_[k] * from_rest(strain[k], k);
-        stress[k] -= state[thermal] * modulus_[k];
-      }
-      now += state[thermal] * modulus_of_volume_;
+      const Heated heated = heated_at_rest(own);
+      const Values pull = pulled(strain, heated.modulus);
+      for (int k = 0; k < n; ++k) stress[k] -= state[thermal] * pull[k];
+      if constexpr (kind == PointKind::solid)  // of F S; linear steps leave it out
+        for (int k = 0; k < n && !stiffness.empty(); ++k)
+          for (int i = 0; i < 3; ++i) stiffness[n * k + k / 3 * 3 + i] -= state[thermal] * heated.modulus[3 * i + k % 3];
+      now = state[thermal] * heated.modulus_of_volume - work_of(strain, heated.modulus);
     } else {
       const double theta = 1.0 + state[thermal];
       const Values part = mechanical_of(strain, theta);
@@ -117,7 +112,7 @@ class Expanding final : public Law<kind> {
         contraction += contracted(stress[k], part[k], k);
       }
       for (double& slope_of_stress : stiffness) slope_of_stress *= kind == PointKind::solid ? theta : 1.0 / theta;
-      now = slope(theta, law_->energy_density(part, own).recoverable, contraction);
+      now = slope(theta, whole_energy(law_->energy_density(part, own)), contraction);
     }
     state[work] += 0.5 * (state[force] + now) * (state[thermal] - state[done]);
     state[force] = now;
@@ -138,8 +133,9 @@ class Expanding final : public Law<kind> {
     const double volume = theta * theta * theta;
     energy = {volume * energy.recoverable, volume * energy.plastic, volume * energy.viscous, state[work]};
     if (state[linear] == 0.0) return energy;
-    for (int k = 0; k < n; ++k) energy.recoverable -= state[thermal] * modulus_[k] * from_rest(strain[k], k);
-    energy.recoverable += 0.5 * state[thermal] * state[thermal] * modulus_of_volume_;
+    const Heated heated = heated_at_rest(history.first(own_));
+    energy.recoverable -= state[thermal] * work_of(strain, heated.modulus);
+    energy.recoverable += 0.5 * state[thermal] * state[thermal] * heated.modulus_of_volume;
     return energy;
   }
 
@@ -150,12 +146,52 @@ class Expanding final : public Law<kind> {
   }
 
  private:
+  struct Heated {
+    Values modulus{};                // D : 1
+    double modulus_of_volume = 0.0;  // 1 : D : 1
+  };
+  /// With the law's tangent D in the undeformed state; `own` tells of the point's axes.
+  Heated heated_at_rest(std::span<const double> own) const {
+    Values undeformed{}, stress;
+    if constexpr (kind == PointKind::solid)
+      for (int k = 0; k < n; ++k) undeformed[k] = stretched<kind>(k);
+    std::array<double, n * n> stiffness;
+    std::vector<double> history(own.begin(), own.end());
+    std::fill_n(history.begin() + stressed_.first, stressed_.components, 0.0);
+    law_->tangent(undeformed, 0.0, history, stress, stiffness);
+    Heated heated;
+    for (int i = 0; i < n; ++i)
+      for (int k = 0; k < n; ++k) heated.modulus[i] += stiffness[n * i + k] * stretched<kind>(k);
+    for (int k = 0; k < n; ++k) heated.modulus_of_volume += heated.modulus[k] * stretched<kind>(k);
+    return heated;
+  }
+  /// What expands with the volume: dissipated energy too is counted by it.
+  static double whole_energy(const EnergyDensity& energy) { return energy.recoverable + energy.plastic + energy.viscous; }
   static Values mechanical_of(std::span<const double, n> strain, double theta) {
     Values part;
     for (int k = 0; k < n; ++k) part[k] = mechanical<kind>(strain[k], theta, k);
     return part;
   }
-  static double from_rest(double strain, int k) { return kind == PointKind::solid ? strain - stretched<kind>(k) : strain; }
+  /// A stress S of the undeformed state as the law gives stresses: F S of solids, whose F is not 1 at rest where the columns are other
+  /// material axes than the global ones.
+  static Values pulled(std::span<const double, n> strain, const Values& s) {
+    if constexpr (kind != PointKind::solid) return s;
+    Values p{};
+    for (int k = 0; k < n; ++k)
+      for (int i = 0; i < 3; ++i) p[k] += strain[k / 3 * 3 + i] * s[3 * i + k % 3];
+    return p;
+  }
+  /// S : E, with Green's strain of solids.
+  static double work_of(std::span<const double, n> strain, const Values& s) {
+    double work = 0.0;
+    if constexpr (kind == PointKind::solid) {
+      const Values p = pulled(strain, s);
+      for (int k = 0; k < n; ++k) work += 0.5 * (strain[k] * p[k] - stretched<kind>(k) * s[k]);
+    } else {
+      for (int k = 0; k < n; ++k) work += s[k] * strain[k];
+    }
+    return work;
+  }
   /// Addend of P : F_mech, or of S : (2 E_mech + 1).
   template <class T>
   static T contracted(const T& stress, const T& part, int k) {
@@ -179,8 +215,7 @@ class Expanding final : public Law<kind> {
 
   std::unique_ptr<Law<kind>> law_;
   int own_;
-  Values modulus_{};                // D : 1
-  double modulus_of_volume_ = 0.0;  // 1 : D : 1
+  HistoryField stressed_{.name = {}, .first = 0, .components = 0};  // an initial stress, which stiffens nothing here
 };
 
 }  // namespace

@@ -128,6 +128,19 @@ def bouncing(runner):
             assert drift < 1e-3 and force[-1] < 0.02 * law(d), (drift, force[-1])
 
 
+def hard_blow(runner):
+    """A law as stiff as the block: its springs close and open between the instants of the loop, and make no energy of that."""
+    deck, _ = model("road", kind="C3D8R", young=1e3)
+    deck.sets["FALLING"] = [n for n in deck.nodes if n != 90000]
+    pair(deck, "NODE TO SURFACE", behavior(linear(2e4)[0]))
+    deck.add("*INITIAL CONDITIONS, TYPE=VELOCITY\nFALLING, 3, -2.")
+    deck.add("*STEP, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, 0.01\n*BULK VISCOSITY\n0., 0.\n*BOUNDARY\nBASE, 1, 6\n%s*END STEP" % EXPLICIT_OUTPUT)
+    total = energy(runner.run("hard_blow", deck), "ETOTAL")
+    drift = np.abs(total - total[0]).max() / total[0]
+    print("energy moves by %.1e" % drift)
+    assert drift < 1e-2, drift
+
+
 def drawn(master):
     """Pressed and drawn along without friction; friction comes in, grows while the block is drawn on, and falls."""
     deck, _ = model(master) if master == "road" else (blocks(3, 1, at=(0.15, 1.0), size=(3.0, 1.0)), 2)
@@ -220,7 +233,7 @@ def behavior_changes(runner):
         assert stress[0] > 1.1 * stress[1]
 
 
-CASES = {f.__name__: f for f in (pressed, standing, bouncing, friction_comes_in, friction_comes_in_explicit, friction_restarted, behavior_changes)}
+CASES = {f.__name__: f for f in (pressed, standing, bouncing, hard_blow, friction_comes_in, friction_comes_in_explicit, friction_restarted, behavior_changes)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](Runner(sys.argv[2], sys.argv[3]))

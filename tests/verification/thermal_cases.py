@@ -66,6 +66,32 @@ def free(runner):
             close(energy["ETOTAL"][-1], 0.0, 1e-9, "energy balance")
 
 
+def oriented(runner):
+    """Matter with axes of its own, turned by 90 degrees, expands freely without stress."""
+    for geometry in (LINEAR, FINITE):
+        deck = block("C3D8")
+        deck.add(MATERIAL.replace("*ELASTIC\n%g, %g" % (YOUNG, POISSON), "*ELASTIC, TYPE=ENGINEERING CONSTANTS\n2e5, 1e5, 5e4, .3, .2, .25, 6e4, 5e4\n4e4,").replace(
+            "MATERIAL=M\n", "MATERIAL=M, ORIENTATION=TURNED\n", 1) + "*ORIENTATION, NAME=TURNED\n0., 1., 0., -1., 0., 0.\n")
+        deck.add(step(geometry, ROLLERS, "*TEMPERATURE\nEVERY, %g" % HEAT))
+        results = runner.run("oriented" + ("_finite" if geometry else ""), deck)
+        close(np.abs(results.element("C3D8", "S")).max() / (YOUNG * ALPHA * HEAT), 0.0, 1e-8, "stress")
+        close(results.at(deck.node_at((3.0, 2.0, 2.0)), "U")[0], 3.0 * ALPHA * HEAT, 1e-9, "displacement")
+
+
+def perturbed(runner):
+    """A pull on a free heated block: its stress is the pull over the heated area."""
+    for geometry, area in ((LINEAR, 4.0), (FINITE, 4.0 * (1.0 + ALPHA * HEAT) ** 2)):
+        deck = block("C3D8")
+        deck.add(MATERIAL + "*ELSET, ELSET=ENDS, GENERATE\n3, 12, 3\n*SURFACE, NAME=END, TYPE=ELEMENT\nENDS, S4")
+        deck.add(step(geometry, ROLLERS, "*TEMPERATURE\nEVERY, %g" % HEAT))
+        deck.add(step("", "*DSLOAD\nEND, P, -100.", "").replace("*STEP", "*STEP, PERTURBATION", 1))
+        results = runner.run("perturbed" + ("_finite" if geometry else ""), deck)
+        pull = -results.node("RF", 2)[:, 0].sum()
+        for stress in results.element("C3D8", "S", 2):
+            close(stress[0], pull / area, 1e-7, "S11")
+        close(np.abs(results.element("C3D8", "S", 2)[:, 1:]).max() / (pull / area), 0.0, 1e-7, "other stresses")
+
+
 def saint_venant(stretch):
     """Cauchy stress of a bar of St. Venant-Kirchhoff matter, free across, for its mechanical stretch along."""
     green = 0.5 * (stretch ** 2 - 1.0)
@@ -155,9 +181,20 @@ def refused(runner):
     refusal("ortho", lambda text: text.replace("*EXPANSION\n", "*EXPANSION, TYPE=ORTHO\n"), "TYPE")
     refusal("falling", lambda text: text.replace("*EXPANSION\n%g" % ALPHA, "*EXPANSION\n1e-5, 100.\n2e-5, 50."), "rising")
     refusal("file", lambda text: text, "FILE")
+    deck = block()
+    deck.add(MATERIAL)
+    deck.add(step(LINEAR, ROLLERS, "*TEMPERATURE\nEVERY, 2."))
+    deck.add("*STEP\n*BUCKLE\n1\n*CLOAD\n2, 1, -1.\n*END STEP")
+    done, _ = runner.launch("buckle", deck, 1)
+    assert done.returncode == 2 and "does not count thermal strains" in done.stderr + done.stdout, done.stderr
+    deck = block()
+    deck.add(MATERIAL)
+    deck.add(step(FINITE, ROLLERS, "*TEMPERATURE\nEVERY, %g" % (-1.5 / ALPHA)))
+    done, _ = runner.launch("nothing_left", deck, 1)
+    assert done.returncode == 3 and "nothing is left of it" in done.stderr + done.stdout, done.stderr
 
 
-CASES = {case.__name__: case for case in (free, clamped, table, membrane, explicit, refused)}
+CASES = {case.__name__: case for case in (free, oriented, perturbed, clamped, table, membrane, explicit, refused)}
 
 if __name__ == "__main__":
     name, program, folder = sys.argv[1:4]

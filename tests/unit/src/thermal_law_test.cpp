@@ -106,7 +106,7 @@ TEST(Expanding, HeatIsWhatTheEnergyGains) {
   }
 }
 
-TEST(Expanding, OfFirstOrderIsAStressWithoutStiffness) {
+TEST(Expanding, OfFirstOrderIsAnInitialStress) {
   Point point;
   point.history = {0.02, 1.0, 0.0, 0.0, 0.0};
   point.respond({1, 0, 0, 0, 1, 0, 0, 0, 1});
