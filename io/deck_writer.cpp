@@ -269,6 +269,8 @@ void Writer::friction(const Interaction& interaction) {
 }
 
 void Writer::behavior(const Interaction& interaction) {
+  // Before a law, which would be hard again behind it.
+  if (interaction.penalty_scale != 1.0) line("*SURFACE BEHAVIOR, PENALTY\n{}", interaction.penalty_scale);
   const auto& law = interaction.behavior;
   switch (law.kind) {
     case PressureLaw::Kind::hard: break;
@@ -283,7 +285,6 @@ void Writer::behavior(const Interaction& interaction) {
       for (const auto& row : law.rows) line("{}, {}", row.pressure, row.overclosure);
       break;
   }
-  if (interaction.penalty_scale != 1.0) line("*SURFACE BEHAVIOR, PENALTY\n{}", interaction.penalty_scale);
 }
 
 void Writer::contact() {

@@ -1,4 +1,4 @@
-// *BEAM SECTION *BEAM GENERAL SECTION *TRANSVERSE SHEAR STIFFNESS.
+// *BEAM SECTION *BEAM GENERAL SECTION.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -137,19 +137,6 @@ void read_general_beam_section(Builder& builder, const Block& block) {
   assign_section(builder, block, *std::move(section), elements);
 }
 
-/// K23 (shear along n2), K13 (along n1), slenderness compensation; of the beam section above it.
-void read_shear_stiffness(Builder& builder, const Block& block) {
-  auto& sections = builder.model.sections;
-  if (sections.empty() || sections.back().kind != Section::Kind::beam)
-    return builder.error(block, block.location, "it belongs behind a *BEAM SECTION or *BEAM GENERAL SECTION; move it there");
-  if (block.lines.empty()) return builder.error(block, block.location, "the stiffnesses K23, K13 are missing; add a data line");
-  Row row(builder, block, block.lines[0]);
-  const double k23 = row.real(0, "shear stiffness K23"), k13 = row.real(1, "shear stiffness K13");
-  row.at_most(2);
-  if (row.ok() && !(k23 > 0.0 && k13 > 0.0)) row.error("shear stiffnesses must be positive");
-  if (row.ok()) sections.back().beam.shear_stiffness = {k13, k23};
-}
-
 const RegisterKeyword beam_section{{"BEAM SECTION",
                                     Phase::sections,
                                     Place::model,
@@ -161,7 +148,6 @@ const RegisterKeyword general_beam_section{{"BEAM GENERAL SECTION",
                                             Place::model,
                                             {required(name("ELSET")), choice("SECTION", {"GENERAL"}), real("DENSITY")},
                                             read_general_beam_section}};
-const RegisterKeyword beam_shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_shear_stiffness}};
 
 }  // namespace
 

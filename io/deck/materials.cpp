@@ -271,9 +271,16 @@ void read_option(Builder& builder, const Block& block) {
   const auto unused = softens ? std::span<const char* const>(thermal_softening) : std::span<const char* const>(one_for_all_temperatures);
   if (softens) warn_of_softening(builder, block, columns.size());
   std::size_t line = 0;
+  std::optional<double> temperature;
   do {
+    const std::size_t first = line;
     const auto values = read_values(builder, block, line, columns, unused);
     if (!values) return;
+    if (Row row(builder, block, block.lines[first]); !softens && row.has(static_cast<int>(columns.size()))) {
+      const double here = row.real(static_cast<int>(columns.size()), "temperature");
+      if (temperature.value_or(here) != here) return no_tables(builder, block, block.lines[first].location);
+      temperature = here;
+    }
     result.rows.push_back(*values);
   } while (option->table && line < block.lines.size());
   if (line < block.lines.size()) return no_tables(builder, block, block.lines[line].location);

@@ -1,4 +1,4 @@
-// *SHELL SECTION *SHELL GENERAL SECTION *TRANSVERSE SHEAR STIFFNESS *NODAL THICKNESS *NORMAL.
+// *SHELL SECTION *SHELL GENERAL SECTION *NODAL THICKNESS *NORMAL.
 #include "deck/shell_sections.hpp"
 
 #include <fmt/format.h>
@@ -190,20 +190,6 @@ void read_general_shell_section(Builder& builder, const Block& block) {
   if (good && read_distributed_thickness(builder, block, *section, elements)) assign_section(builder, block, *std::move(section), elements);
 }
 
-void read_transverse_shear(Builder& builder, const Block& block) {
-  auto& sections = builder.model.sections;
-  if (sections.empty() || sections.back().kind != Section::Kind::shell)
-    return builder.error(block, block.location,
-                         "it must follow *SHELL SECTION or *SHELL GENERAL SECTION; move it there");
-  if (block.lines.empty()) return builder.error(block, block.location, "the stiffness is missing; add K11, K22, K12");
-  Row row(builder, block, block.lines[0]);
-  const double k11 = row.real(0, "K11"), k22 = row.real(1, "K22"), k12 = row.real_or(2, 0.0, "K12");
-  row.at_most(3);
-  if (row.ok() && !(k11 > 0.0 && k22 > 0.0 && k11 * k22 > k12 * k12))
-    row.error("the stiffness is not positive definite; give positive K11 and K22 and a smaller K12");
-  if (row.ok()) sections.back().shell.transverse_shear = {k11, k22, k12};
-}
-
 void read_nodal_thickness(Builder& builder, const Block& block) {
   auto& thickness = builder.model.nodes.thickness;
   thickness.resize(builder.model.nodes.size(), 0.0);
@@ -252,7 +238,6 @@ const RegisterKeyword general_section{{"SHELL GENERAL SECTION",
                                        {required(name("ELSET")), name("MATERIAL"), name("ORIENTATION"), name("CONTROLS"),
                                         flag("COMPOSITE"), name("OFFSET"), flag("NODAL THICKNESS"), name("SHELL THICKNESS"), real("DENSITY")},
                                        read_general_shell_section}};
-const RegisterKeyword shell_shear{{"TRANSVERSE SHEAR STIFFNESS", Phase::sections, Place::model, {}, read_transverse_shear}};
 const RegisterKeyword thickness{{"NODAL THICKNESS", Phase::surfaces, Place::model, {}, read_nodal_thickness}};
 const RegisterKeyword normal{{"NORMAL", Phase::surfaces, Place::model, {choice("TYPE", {"ELEMENT"})}, read_normals}};
 

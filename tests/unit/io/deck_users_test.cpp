@@ -76,6 +76,23 @@ TEST(UsersDecks, WhatTellsAnotherCodeHowToComputeIsLeftOutWithANote) {
   EXPECT_NE(errors_of(brick + "*STEP\n*STATIC, RIKS\n*END STEP\n"), "") << "this one changes the results";
 }
 
+TEST(UsersDecks, ShearStiffnessIsOfTheSectionBeforeIt) {
+  const std::string parts =
+      "*NODE\n1, 0., 0., 0.\n2, 1., 0., 0.\n3, 1., 1., 0.\n4, 0., 1., 0.\n*ELEMENT, TYPE=S4R, ELSET=SHEET\n1, 1, 2, 3, 4\n"
+      "*ELEMENT, TYPE=B31, ELSET=LINE\n2, 1, 2\n*MATERIAL, NAME=M\n*ELASTIC\n1., 0.\n";
+  const auto model = read(parts + "*SHELL SECTION, ELSET=SHEET, MATERIAL=M\n1.\n*TRANSVERSE SHEAR STIFFNESS\n4., 5., 1.\n" +
+                          "*BEAM SECTION, ELSET=LINE, MATERIAL=M, SECTION=RECT\n1., 2.\n0., 1., 0.\n*TRANSVERSE SHEAR STIFFNESS\n6., 7.\n" + static_step)
+                         .model;
+  EXPECT_EQ(model.sections[0].shell.transverse_shear[2], 1.0);
+  EXPECT_EQ(model.sections[1].beam.shear_stiffness->at(0), 7.0);
+}
+
+TEST(UsersDecks, YieldStressesOfSeveralTemperaturesAreRefusedAsSuch) {
+  const auto errors = errors_of(replaced(brick, "*DENSITY", "*PLASTIC\n300., 0., 20.\n400., 0.2, 20.\n200., 0., 300.\n*DENSITY") + static_step);
+  EXPECT_NE(errors.find("tables of temperature"), std::string::npos) << errors;
+  EXPECT_EQ(errors_of(replaced(brick, "*DENSITY", "*PLASTIC\n300., 0., 20.\n400., 0.2, 20.\n*DENSITY") + static_step), "");
+}
+
 TEST(UsersDecks, WhatNeedsFlowsOfHeatIsLeftOutWithANote) {
   const auto result = read(replaced(brick, "*DENSITY", "*EXPANSION, ZERO=20.\n1.2E-5\n*CONDUCTIVITY\n50.\n*DENSITY") +
                            "*PHYSICAL CONSTANTS, ABSOLUTE ZERO=-273.15\n" + static_step);
