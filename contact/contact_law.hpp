@@ -40,6 +40,25 @@ struct PenaltyParameters {
   double lacking_force(double distance) const {
     return area * (law->at(-distance).pressure - law->at(-distance, straight_from).pressure);
   }
+  /// Where that is all of a multiplier > 0. By Newton's steps from above: it grows ever faster.
+  double overclosure_lacking(double multiplier) const {
+    double overclosure = straight_from + std::abs(law->start());
+    while (lacking_force(-overclosure) < multiplier) overclosure = 2.0 * overclosure - straight_from;
+    for (int i = 0; i < 60; ++i) {
+      const double slope = area * (law->at(overclosure).slope - law->at(overclosure, straight_from).slope);
+      const double step = (lacking_force(-overclosure) - multiplier) / slope;
+      overclosure -= step;
+      if (!(step > 1e-12 * (overclosure - straight_from))) break;
+    }
+    return overclosure;
+  }
+  /// Energy of the normal spring of a law, with what a multiplier gives back as the point rises.
+  double energy_of_law(double multiplier, double overclosure) const {
+    const double straight = area * law->energy(overclosure, straight_from);
+    if (!(multiplier > 0.0)) return straight;
+    const double held = overclosure_lacking(multiplier), until = std::min(overclosure, held);
+    return straight + area * (law->energy(until) - law->energy(until, straight_from)) + multiplier * std::max(0.0, overclosure - held);
+  }
   /// The force at which a point slips.
   template <class T>
   T sliding_limit(const T& pressure) const {

@@ -185,7 +185,7 @@ std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& pla
 double MeshContact::spring_energy(const Place& place, const ContactPoint& state, double gap) const {
   const double k = stiffness(place, state), e = tension_width_;
   if (e > 0.0) return k * (0.25 * gap * gap + (0.5 * (gap * gap + e * e) * std::atan(-gap / e) + 0.5 * e * gap) / std::numbers::pi);
-  if (curved_) return place.area * law_.energy(-gap, straight_from(place, state));
+  if (curved_) return parameters(place, state).energy_of_law(state.multiplier, -gap);
   // A multiplier holds without a stretch: nothing is stored where the gap is zero.
   const double force = std::max(0.0, state.multiplier - k * gap), held = std::max(0.0, state.multiplier);
   return 0.5 * (force * force - held * held) / k;

@@ -234,7 +234,7 @@ namespace {
 
 /// Energy that the normal spring holds.
 double normal_energy(const PenaltyParameters& spring, double multiplier, double gap) {
-  if (spring.law != nullptr) return spring.area * spring.law->energy(-gap, spring.straight_from);
+  if (spring.law != nullptr) return spring.energy_of_law(multiplier, -gap);
   // A multiplier holds without a stretch: nothing is stored where the gap is zero.
   const double stretched = std::max(0.0, multiplier - spring.stiffness * gap), held = std::max(0.0, multiplier);
   return 0.5 * (stretched * stretched - held * held) / spring.stiffness;

@@ -8,6 +8,7 @@
 #include <unsupported/Eigen/MatrixFunctions>
 
 #include "constraints/rigid_body.hpp"
+#include "kept_state.hpp"
 #include "math/rotation.hpp"
 #include "modal_forces.hpp"
 #include "model/diagnostics.hpp"
@@ -210,12 +211,8 @@ void ModalDynamicStep::show_bodies() {
 
 Outcome ModalDynamicStep::run() {
   auto& state = analysis_.current;
-  const State kept = state;
-  const auto outputs = [&] {
-    return std::tie(analysis_.acceleration, analysis_.reaction, analysis_.angular_acceleration, analysis_.reaction_moment,
-                    analysis_.body_reaction, analysis_.body_angular_acceleration);
-  };
-  const auto kept_outputs = std::apply([](const auto&... values) { return std::tuple(values...); }, outputs());
+  KeptState keeper(analysis_);
+  const State& kept = keeper.state();
   const double total_start = state.total_time;
   Vector before = forces_->loads(step_, 0.0, total_start);
   forces_->show(amplitude_, velocity_, before);
@@ -248,12 +245,7 @@ Outcome ModalDynamicStep::run() {
                                            .time_increment = increment,
                                            .step_finished = ends});
   }
-  const auto [increment, step_time, total_time] = std::tuple(state.increment, state.step_time, state.total_time);
-  state = kept;
-  outputs() = kept_outputs;
-  state.increment = increment;
-  state.step_time = step_time;
-  state.total_time = total_time;
+  keeper.restore();
   return go_on ? Outcome::finished : Outcome::stopped;
 }
 

@@ -10,6 +10,7 @@
 #include "implicit_newton.hpp"
 #include "implicit_prescribed.hpp"
 #include "implicit_system.hpp"
+#include "kept_state.hpp"
 #include "materials/flow_stress.hpp"
 #include "math/rotation.hpp"
 #include "model/diagnostics.hpp"
@@ -170,13 +171,7 @@ void StaticPerturbationStep::show_work(std::span<const double> loads) {
 Outcome StaticPerturbationStep::run() {
   auto& state = analysis_.current;
   refuse_yielding();
-  const State kept = state;
-  const auto outputs = [&] {
-    return std::tie(analysis_.acceleration, analysis_.reaction, analysis_.angular_acceleration,
-                    analysis_.reaction_moment, analysis_.body_reaction, analysis_.body_angular_acceleration,
-                    analysis_.kinetic_energy);
-  };
-  const auto kept_outputs = std::apply([](const auto&... values) { return std::tuple(values...); }, outputs());
+  KeptState keeper(analysis_);
   observer_.step_started(analysis_, state.step);
   observer_.log(fmt::format("step {} '{}': {}, about {}, {} equations", state.step + 1, step_.name,
                             step_.procedure_name(), state.linear ? "the reference configuration" : "the present state",
@@ -188,7 +183,7 @@ Outcome StaticPerturbationStep::run() {
   state.linear = true;
   state.increment = 1;
   state.step_time = step_.duration();
-  state.total_time = kept.total_time + state.step_time;
+  state.total_time = keeper.state().total_time + state.step_time;
   analysis_.kinetic_energy = 0.0;
   show();
   const bool go_on = observer_.advanced(analysis_, {.increment = 1,
@@ -197,13 +192,8 @@ Outcome StaticPerturbationStep::run() {
                                                     .time_increment = state.step_time,
                                                     .iterations = 1,
                                                     .step_finished = true});
-  const auto total_time = state.total_time;
   analysis_.small_strain().perturb(nullptr);
-  state = kept;
-  outputs() = kept_outputs;
-  state.increment = 1;
-  state.step_time = step_.duration();
-  state.total_time = total_time;
+  keeper.restore();
   return go_on ? Outcome::finished : Outcome::stopped;
 }
 

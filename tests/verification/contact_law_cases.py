@@ -101,6 +101,23 @@ def standing(runner):
             assert before > 0.0 and moved < 1e-3 and kinetic.max() < 1e-6 * inner.max()
 
 
+def released(runner):
+    """As standing(), then let go: what the law had stored, all of it, is in the motion or in the books."""
+    for master in ("road", "faces"):
+        for text in ("EXPONENTIAL\n0.01, 1.5, 300.", "EXPONENTIAL\n0.002, 0.5"):
+            deck, _ = model(master, kind="C3D8R")
+            pair(deck, "SURFACE TO SURFACE" if master == "faces" else "NODE TO SURFACE", behavior(text))
+            base = 6 if master == "road" else 3
+            static(deck, "*BOUNDARY\nBASE, 1, %d\nTOP, 1, 2\nTOP, 3, 3, -0.02\n" % base, "0.25, 1.")
+            deck.add("*STEP, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, 0.05\n*BULK VISCOSITY\n0., 0.\n*BOUNDARY, OP=NEW\nBASE, 1, %d\n%s*END STEP" % (
+                base, EXPLICIT_OUTPUT.replace("HISTORY, FREQUENCY=1", "HISTORY, TIME INTERVAL=1e-4")))
+            results = runner.run("released_%s_%s" % (master, "automatic" if "0.5" in text else "bounded"), deck)
+            stored, total = energy(results, "ALLIE", 1)[-1], energy(results, "ETOTAL", 2)
+            drift = np.abs(total - total[0]).max() / stored
+            print("%s: energy moves by %.1e of what was stored" % (master, drift))
+            assert energy(results, "ALLKE", 2).max() > 0.5 * stored and drift < 2e-2, drift
+
+
 def bouncing(runner):
     """A stiff block of mass m = 1e-3 comes down at v = 1 on a soft law and goes up as it came: no energy is lost, and the greatest force is
     that at which the law has taken m v^2 / 2."""
@@ -233,7 +250,7 @@ def behavior_changes(runner):
         assert stress[0] > 1.1 * stress[1]
 
 
-CASES = {f.__name__: f for f in (pressed, standing, bouncing, hard_blow, friction_comes_in, friction_comes_in_explicit, friction_restarted, behavior_changes)}
+CASES = {f.__name__: f for f in (pressed, standing, released, bouncing, hard_blow, friction_comes_in, friction_comes_in_explicit, friction_restarted, behavior_changes)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](Runner(sys.argv[2], sys.argv[3]))
