@@ -57,7 +57,6 @@ class Analysis : public ResultSource {
   std::vector<Mode> modes;                         // of the last frequency step of this run
   std::int32_t step_of_modes = -1;                 // that step's row of Model::steps
   State current;
-  bool keeps_thermal_strains = false;  // of another job, whose temperatures are not known
 
   /// What happens once when a step starts afresh: attaches and releases what it says, from where the nodes stand; contact
   /// pairs that rest in it forget what they knew. Collective.

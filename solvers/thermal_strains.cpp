@@ -75,7 +75,8 @@ ThermalStrains::ThermalStrains(const Analysis& analysis) {
 }
 
 void ThermalStrains::set(Analysis& analysis, const Step& step, double step_time, double total_time) const {
-  if (analysis.keeps_thermal_strains && step.temperatures.empty()) return;  // thermal strains came with the state of another job
+  const auto has_none = [](const Step& other) { return other.temperatures.empty(); };
+  if (std::ranges::all_of(analysis.model.steps, has_none)) return;  // there are none but those that came with another job's state
   const auto temperature = nodal_temperatures(analysis, step, step_time, total_time);
   const auto& initial = analysis.model.initial_temperature;
   for (const auto& heated : groups_) {

@@ -83,16 +83,23 @@ PointStresses stresses_before_update(const std::string& path, const Analysis& up
   return stresses_of_imported_solids(before);
 }
 
-/// Another job's state does not say at which temperatures it was left.
-void keep_thermal_strains(const Command& command, Analysis& analysis) {
-  analysis.keeps_thermal_strains = true;
-  const Model& model = analysis.model;
+/// Another job's state does not say at which temperatures it was left: its thermal strains stay as they are.
+void refuse_temperatures(const Command& command, const Model& model) {
   if (std::ranges::none_of(model.materials, [](const auto& material) { return material.expansion.has_value(); })) return;
-  for (const Step& step : model.steps)
+  const auto is_asked = [](const std::vector<std::string>& variables) { return std::ranges::find(variables, "NT") != variables.end(); };
+  const auto shows = [&](const FieldOutput& output) { return is_asked(output.node_variables); };
+  const auto tells = [&](const HistoryOutput& output) {
+    return std::ranges::any_of(output.nodes, [&](const auto& nodes) { return is_asked(nodes.variables); });
+  };
+  for (const Step& step : model.steps) {
     if (!step.temperatures.empty())
       throw InputError(fmt::format("{}: error: *TEMPERATURE: the temperatures at which {} ended are not known; a job that goes on from another "
                                    "keeps its thermal strains as they are: remove it",
                                    model.where({step.temperatures.front().file, step.temperatures.front().line}), command.import_from));
+    if (std::ranges::any_of(step.field_outputs, shows) || std::ranges::any_of(step.history_outputs, tells))
+      throw InputError(fmt::format("{}: error: step {}: *NODE OUTPUT: NT: the temperatures at which {} ended are not known; leave NT out",
+                                   command.deck, step.name, command.import_from));
+  }
 }
 
 /// Where *RESTART, READ goes on, or at time zero: whole, or what *IMPORT names.
@@ -108,11 +115,11 @@ void start_from_another_job(const Command& command, Analysis& analysis) {
     return;
   } else if (import) {
     if (import->update) start_from_stresses(stresses_before_update(command.import_from, analysis), analysis);
-    keep_thermal_strains(command, analysis);
+    refuse_temperatures(command, analysis.model);
     const auto summary = arguments(import_state);
     if (analysis.communicator.is_root()) fmt::print("{}\n", summary);
   } else {
-    keep_thermal_strains(command, analysis);
+    refuse_temperatures(command, analysis.model);
     arguments(import_checkpoint);
   }
   analysis.take_up_checkpoint();

@@ -122,6 +122,29 @@ def clamped(runner):
     close(runner.run("truss", deck).element("T3D2", "S")[0][0], -YOUNG * ALPHA * HEAT, 1e-9, "S11 of a truss")
 
 
+def imported(runner):
+    """Another job's heat stays as it is; its temperatures are not known there, and asking for them is refused."""
+    def bar():
+        deck = block()
+        deck.add(MATERIAL)
+        return deck
+    hold = ROLLERS + "\nX1, 1, 1"
+    deck = bar()
+    deck.add(step(FINITE, hold, "*TEMPERATURE\nEVERY, %g\n*RESTART, WRITE, FREQUENCY=100" % HEAT))
+    before = runner.run("heated", deck).element("C3D8R", "S")
+    checkpoint = ("--import", os.path.join(runner.folder, "heated_1", "heated.ckpt.h5"))
+    for name, procedure in (("static", "*STATIC\n1., 1."), ("explicit", "*DYNAMIC, EXPLICIT\n, 1e-5")):
+        deck = bar()
+        deck.add(step(FINITE, hold, "", procedure).replace("U, RF, NT", "U").replace("FIELD, FREQUENCY=1", "FIELD, NUMBER INTERVAL=1"))
+        after = runner.run("imported_" + name, deck, options=checkpoint).element("C3D8R", "S")
+        close(np.abs(after - before).max() / np.abs(before).max(), 0.0, 1e-6, name + ": stress")
+    for name, outputs, temperature in (("asked", OUTPUT, ""), ("given", "", "*TEMPERATURE\nEVERY, 1.")):
+        deck = bar()
+        deck.add("*STEP, NLGEOM\n*STATIC\n1., 1.\n%s\n%s\n%s*END STEP" % (hold, temperature, outputs))
+        done, _ = runner.launch(name, deck, 1, options=checkpoint)
+        assert done.returncode == 2 and "are not known" in done.stderr + done.stdout, done.stderr
+
+
 def table(runner):
     """alpha(T) between rows and beyond them, from ZERO, less what the initial temperature has; a curve leads there."""
     deck = block()
@@ -194,7 +217,7 @@ def refused(runner):
     assert done.returncode == 3 and "nothing is left of it" in done.stderr + done.stdout, done.stderr
 
 
-CASES = {case.__name__: case for case in (free, oriented, perturbed, clamped, table, membrane, explicit, refused)}
+CASES = {case.__name__: case for case in (free, oriented, perturbed, imported, clamped, table, membrane, explicit, refused)}
 
 if __name__ == "__main__":
     name, program, folder = sys.argv[1:4]
