@@ -54,7 +54,8 @@ def free(runner):
             deck.add(MATERIAL + "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 20.")
             deck.add(step(geometry, ROLLERS, "*TEMPERATURE\nEVERY, %g" % (20.0 + HEAT)))
             deck.add(step(geometry, "", "*TEMPERATURE, OP=NEW"))
-            results = runner.run_alike("free_%s%s" % (kind, "_finite" if geometry else ""), deck)
+            run = runner.run_alike if kind == "C3D8R" else runner.run
+            results = run("free_%s%s" % (kind, "_finite" if geometry else ""), deck)
             far = deck.node_at((3.0, 2.0, 2.0))
             for axis, length in enumerate((3.0, 2.0, 2.0)):
                 close(results.at(far, "U")[axis], length * ALPHA * HEAT, 1e-9, "%s: displacement %d" % (kind, axis + 1))
@@ -106,7 +107,8 @@ def clamped(runner):
             deck = block(kind)
             deck.add(MATERIAL)
             deck.add(step(geometry, ROLLERS + "\nX1, 1, 1", "*TEMPERATURE\nEVERY, %g" % HEAT))
-            results = runner.run_alike("clamped_%s%s" % (kind, "_finite" if geometry else ""), deck)
+            run = runner.run_alike if kind == "C3D8R" else runner.run
+            results = run("clamped_%s%s" % (kind, "_finite" if geometry else ""), deck)
             for stress in results.element(kind, "S"):
                 close(stress[0], expected, 1e-8, "%s: S11" % kind)
             close(np.abs(results.element(kind, "S")[:, 1:]).max() / abs(expected), 0.0, 1e-8, "other stresses")
