@@ -208,7 +208,7 @@ void Analysis::leave_linear_geometry(const Step& step) {
   current.linear = false;
   if (current.total_time == 0.0) return;
   place_rigid_nodes(current.position);
-  if (const auto thermal = thermal_strains(*this)) thermal->leave_first_order(*this);
+  ThermalStrains(*this).leave_first_order(*this);
   bool sound = true;
   for (std::size_t index = 0; index < element_groups.size(); ++index) {
     const auto& group = *element_groups[index];

@@ -88,7 +88,7 @@ void temperature(const Analysis& analysis, std::span<double> values) {
   const auto& state = analysis.current;
   const auto row = std::min<std::size_t>(state.step, steps.size() - 1);
   const double step_time = state.step < static_cast<std::int32_t>(steps.size()) ? state.step_time : steps[row].duration();
-  std::ranges::copy(nodal_temperatures(analysis, steps[row], step_time, state.total_time), values.begin());
+  find_nodal_temperatures(analysis, steps[row], step_time, state.total_time, values);
 }
 
 struct NodalVariable {

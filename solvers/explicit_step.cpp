@@ -92,10 +92,10 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
       scale_(force_scale(analysis, step, restraints_)),
       control_(step),
       contact_(analysis, step, constraints_, bodies_, inverse_.mass),
-      thermal_(thermal_strains(analysis)),
+      thermal_(analysis),
       moments_(analysis.model.rigid_bodies.size()),
       rounding_energy_(analysis) {
-  temperatures_move_ = temperatures_move(step);
+  temperatures_move_ = thermal_.move_in(step);
   const auto nodes = static_cast<std::size_t>(analysis.domain.size());
   force_.assign(4 * (nodes + 1), 0.0);
   if (analysis.domain.turning > 0) moment_.assign(force_.size(), 0.0);
@@ -155,7 +155,7 @@ void ExplicitStep::prepare_start() {
   }
   analysis_.communicator.together([&] { linkages_.make_velocities_consistent(analysis_); });
   contact_.choose_springs(analysis_);
-  if (thermal_) thermal_->set(analysis_, step_, state.step_time, state.total_time);
+  thermal_.set(analysis_, step_, state.step_time, state.total_time);
   if (!state.dynamic) contact_.report_overclosure(analysis_, observer_);
   if (!state.dynamic) check_rolling_radius(analysis_, step_, observer_);
   state.dynamic = true;
@@ -174,8 +174,8 @@ void ExplicitStep::advance_positions() {
   state.step_time = control_.time_after(state.step_time, increment);
   state.total_time = total_time_at_start_ + state.step_time;
   ++state.increment;
-  if (thermal_ && temperatures_move_)
-    timers.measure(Phase::loads, [&] { thermal_->set(analysis_, step_, state.step_time, state.total_time); });
+  if (temperatures_move_)
+    timers.measure(Phase::loads, [&] { thermal_.set(analysis_, step_, state.step_time, state.total_time); });
   look_at_mass_scaling(previous_time);
   ++cycles_;
   last_increment_ = increment;

@@ -145,7 +145,7 @@ class ExplicitStep {
   ForceScale scale_;
   TimeControl control_;
   ExplicitContact contact_;
-  std::optional<ThermalStrains> thermal_;  // none: nothing of this rank expands
+  ThermalStrains thermal_;
   bool temperatures_move_ = false;
   bool has_loads_ = false;  // of any rank
   std::optional<Halo> halo_;  // of forces, and of external forces where there are loads

@@ -29,7 +29,7 @@ ImplicitStep::ImplicitStep(Analysis& analysis, const Step& step, Observer& obser
       solver_(system_.stiffness(), analysis, system_.map()),
       newton_(analysis, step, system_, solver_, drive_, observer),
       linear_(analysis, step, system_, solver_, drive_),
-      thermal_(thermal_strains(analysis)),
+      thermal_(analysis),
       total_start_(analysis.current.total_time - analysis.current.step_time),
       failures_(analysis.element_groups) {
   drive_.fading.assign(system_.map().slots(), 0.0);
@@ -68,7 +68,7 @@ Outcome ImplicitStep::march() {
       fail(suggested,
            fmt::format("all {} increments are used up; allow more with *STEP, INC=", increments_.maximum_increments));
     const double time_increment = next_increment(suggested);
-    if (thermal_) thermal_->set(analysis_, step_, goal_of(time_increment).step_time, goal_of(time_increment).total_time);
+    thermal_.set(analysis_, step_, goal_of(time_increment).step_time, goal_of(time_increment).total_time);
     const auto result = attempt(time_increment);
     if (!result.converged) {
       suggested = cutback * time_increment;

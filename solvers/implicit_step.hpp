@@ -2,7 +2,6 @@
 // and what more an increment brings.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -70,7 +69,7 @@ class ImplicitStep {
   void refuse_failures() const;
   double remaining_time() const { return step_.duration() - analysis_.current.step_time; }
 
-  const std::optional<ThermalStrains> thermal_;  // none: nothing expands
+  ThermalStrains thermal_;
   double total_start_ = 0.0;
   ElementFailures failures_;
   bool some_can_fail_ = false;

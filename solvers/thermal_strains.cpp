@@ -51,56 +51,67 @@ void add_weights(const ElementType& type, int point, std::vector<double>& weight
 
 }  // namespace
 
-std::vector<double> nodal_temperatures(const Analysis& analysis, const Step& step, double step_time, double total_time) {
+void find_nodal_temperatures(const Analysis& analysis, const Step& step, double step_time, double total_time, std::span<double> temperature) {
   const auto& initial = analysis.model.initial_temperature;
-  std::vector<double> temperature(static_cast<std::size_t>(analysis.domain.size()), 0.0);
+  std::ranges::fill(temperature, 0.0);
   for (std::size_t node = 0; node < temperature.size() && !initial.empty(); ++node)
     temperature[node] = initial[analysis.domain.node_row[node]];
   for (const auto& said : step.temperatures)
     if (const auto node = analysis.domain.local_node[said.node]; node >= 0)
       temperature[node] = load_magnitude(analysis.model, step, said.previous, said.magnitude, said.amplitude, step_time, total_time);
-  return temperature;
 }
 
-ThermalStrains::ThermalStrains(const Analysis& analysis) {
+ThermalStrains::ThermalStrains(const Analysis& analysis) : temperature_(static_cast<std::size_t>(analysis.domain.size())) {
+  const Model& model = analysis.model;
+  // Without temperatures there are none but those that came with another job's state.
+  acts_ = std::ranges::any_of(model.materials, [](const Material& material) { return material.expansion.has_value(); }) &&
+          std::ranges::any_of(model.steps, [](const Step& step) { return !step.temperatures.empty(); });
   for (std::size_t index = 0; index < analysis.element_groups.size(); ++index) {
     const auto& group = *analysis.element_groups[index];
     Group heated{.index = index, .rows = thermal_strain_rows(group)};
     if (heated.rows.empty()) continue;
-    heated.expansion = &*analysis.model.materials[analysis.model.sections[group.section()].material].expansion;
-    const ElementType& type = *analysis.model.elements[group.table()].type;
+    heated.expansion = &*model.materials[model.sections[group.section()].material].expansion;
+    const ElementType& type = *model.elements[group.table()].type;
     for (int point = 0; point < static_cast<int>(heated.rows.size()); ++point) add_weights(type, point, heated.weights);
     groups_.push_back(std::move(heated));
   }
 }
 
-void ThermalStrains::set(Analysis& analysis, const Step& step, double step_time, double total_time) const {
-  const auto has_none = [](const Step& other) { return other.temperatures.empty(); };
-  if (std::ranges::all_of(analysis.model.steps, has_none)) return;  // there are none but those that came with another job's state
-  const auto temperature = nodal_temperatures(analysis, step, step_time, total_time);
+bool ThermalStrains::move_in(const Step& step) const {
+  return acts_ && std::ranges::any_of(step.temperatures, [](const auto& said) { return said.amplitude >= 0; });
+}
+
+void ThermalStrains::set(Analysis& analysis, const Step& step, double step_time, double total_time) {
+  if (!acts_) return;
+  find_nodal_temperatures(analysis, step, step_time, total_time, temperature_);
+  analysis.communicator.together([&] {
+    for (const auto& heated : groups_) write(analysis, heated);
+  });
+}
+
+void ThermalStrains::write(Analysis& analysis, const Group& heated) const {
+  const auto& group = *analysis.element_groups[heated.index];
   const auto& initial = analysis.model.initial_temperature;
-  for (const auto& heated : groups_) {
-    const auto& group = *analysis.element_groups[heated.index];
-    auto& history = analysis.current.element_history[heated.index];
-    const auto lanes = static_cast<std::size_t>(group.padded_size());
-    for (std::int32_t lane = 0; lane < group.padded_size(); ++lane) {
-      const auto nodes = group.nodes(lane);
-      for (std::size_t point = 0; point < heated.rows.size(); ++point) {
-        double now = 0.0, before = 0.0;
-        for (std::size_t i = 0; i < nodes.size(); ++i) {
-          const double weight = heated.weights[point * nodes.size() + i];
-          now += weight * temperature[nodes[i]];
-          if (!initial.empty()) before += weight * initial[analysis.domain.node_row[nodes[i]]];
-        }
-        const std::size_t row = static_cast<std::size_t>(heated.rows[point]);
-        const double strain = heated.expansion->strain(now, before);
-        if (!analysis.current.linear && !(strain > -1.0) && lane < group.size())
-          throw AnalysisError(fmt::format("element {} at the temperature {:.6g} has the thermal strain {:.6g}: nothing is left of it; correct "
-                                          "*EXPANSION or *TEMPERATURE",
-                                          analysis.model.elements[group.table()].id[group.row(lane)], now, strain));
-        history[row * lanes + lane] = strain;
-        history[(row + 1) * lanes + lane] = analysis.current.linear ? 1.0 : 0.0;
+  auto& history = analysis.current.element_history[heated.index];
+  const bool linear = analysis.current.linear;
+  const auto lanes = static_cast<std::size_t>(group.padded_size());
+  for (std::int32_t lane = 0; lane < group.padded_size(); ++lane) {
+    const auto nodes = group.nodes(lane);
+    for (std::size_t point = 0; point < heated.rows.size(); ++point) {
+      double now = 0.0, before = 0.0;
+      for (std::size_t i = 0; i < nodes.size(); ++i) {
+        const double weight = heated.weights[point * nodes.size() + i];
+        now += weight * temperature_[nodes[i]];
+        if (!initial.empty()) before += weight * initial[analysis.domain.node_row[nodes[i]]];
       }
+      const double strain = heated.expansion->strain(now, before);
+      if (!linear && !(strain > -1.0) && lane < group.size())
+        throw AnalysisError(fmt::format("element {} at the temperature {:.6g} has the thermal strain {:.6g}: nothing is left of it; correct "
+                                        "*EXPANSION or *TEMPERATURE",
+                                        analysis.model.elements[group.table()].id[group.row(lane)], now, strain));
+      const std::size_t row = static_cast<std::size_t>(heated.rows[point]);
+      history[row * lanes + lane] = strain;
+      history[(row + 1) * lanes + lane] = linear ? 1.0 : 0.0;
     }
   }
 }
@@ -111,16 +122,6 @@ void ThermalStrains::leave_first_order(Analysis& analysis) const {
     const auto lanes = static_cast<std::size_t>(analysis.element_groups[heated.index]->padded_size());
     for (const int row : heated.rows) std::fill_n(history.begin() + static_cast<std::ptrdiff_t>((row + 1) * lanes), lanes, 0.0);
   }
-}
-
-std::optional<ThermalStrains> thermal_strains(const Analysis& analysis) {
-  const auto expands = [](const auto& group) { return !thermal_strain_rows(*group).empty(); };
-  if (std::ranges::none_of(analysis.element_groups, expands)) return std::nullopt;
-  return ThermalStrains(analysis);
-}
-
-bool temperatures_move(const Step& step) {
-  return std::ranges::any_of(step.temperatures, [](const auto& said) { return said.amplitude >= 0; });
 }
 
 }  // namespace balocco

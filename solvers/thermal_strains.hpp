@@ -2,7 +2,7 @@
 // (materials/expanding.hpp) before they compute forces.
 #pragma once
 
-#include <optional>
+#include <span>
 #include <vector>
 
 #include "analysis.hpp"
@@ -10,15 +10,17 @@
 namespace balocco {
 
 /// Temperature of each local node at an instant of a step: as the step's *TEMPERATURE says, elsewhere the initial one.
-std::vector<double> nodal_temperatures(const Analysis& analysis, const Step& step, double step_time, double total_time);
+void find_nodal_temperatures(const Analysis& analysis, const Step& step, double step_time, double total_time, std::span<double> temperature);
 
 class ThermalStrains {
  public:
-  /// `analysis` has groups whose material expands.
   explicit ThermalStrains(const Analysis& analysis);
 
-  /// Writes the thermal strains of that instant; of first order in a state that is (State::linear).
-  void set(Analysis& analysis, const Step& step, double step_time, double total_time) const;
+  /// Whether they change with the temperatures of a step while its explicit increments go on: only amplitudes do that.
+  bool move_in(const Step& step) const;
+  /// Writes the thermal strains of that instant; of first order in a state that is (State::linear). Collective.
+  /// @throws AnalysisError on all ranks where nothing would be left of an element.
+  void set(Analysis& analysis, const Step& step, double step_time, double total_time);
   /// What steps of first order left counts as finite from now on.
   void leave_first_order(Analysis& analysis) const;
 
@@ -29,13 +31,12 @@ class ThermalStrains {
     std::vector<int> rows;        // of the history, a point
     std::vector<double> weights;  // of the nodes, point after point
   };
+
+  void write(Analysis& analysis, const Group& heated) const;
+
+  bool acts_ = false;  // a material expands, and a step has temperatures, in the model of all ranks
   std::vector<Group> groups_;
+  std::vector<double> temperature_;  // a local node
 };
-
-/// None where nothing of this rank expands.
-std::optional<ThermalStrains> thermal_strains(const Analysis& analysis);
-
-/// True if temperatures of the step change while its explicit increments go on: only amplitudes do that.
-bool temperatures_move(const Step& step);
 
 }  // namespace balocco

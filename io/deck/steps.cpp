@@ -181,6 +181,15 @@ void end_search_for_modes(Builder& builder, Step& step) {
   step.history_outputs.clear();
 }
 
+/// Those of the state stay.
+void refuse_drives_of_connectors(Builder& builder, const Step& step) {
+  constexpr const char* message = "connectors are not driven in a static PERTURBATION; load their nodes, or give a step with NLGEOM and small loads";
+  for (const auto& load : step.connector_loads)
+    if (load.magnitude != load.previous) builder.diagnostics.error({load.file, load.line}, "CONNECTOR LOAD", message);
+  for (const auto& motion : step.connector_motions)
+    if (!motion.course.propagated) builder.diagnostics.error({motion.course.file, motion.course.line}, "CONNECTOR MOTION", message);
+}
+
 /// The loads of a perturbation come on top of those that the state stands under.
 void make_static_perturbation(Builder& builder, const Block& block) {
   Step& step = current_step(builder);
@@ -206,6 +215,7 @@ void make_static_perturbation(Builder& builder, const Block& block) {
     if (!condition.propagated && condition.amplitude >= 0)
       builder.diagnostics.error({condition.file, condition.line}, "BOUNDARY",
                                 "motions of a static PERTURBATION have no course in time; leave AMPLITUDE out and give the magnitude itself");
+  refuse_drives_of_connectors(builder, step);
 }
 
 /// Checkpoints of which nobody says when: in each implicit increment, and at the end of an explicit step, as Abaqus has them.

@@ -254,14 +254,13 @@ void Checker::check_expansion(const Section& section, const Material& material, 
 /// Perturbations know no thermal loads.
 void Checker::check_temperatures(const Step& step) {
   if (step.temperatures.empty()) return;
-  const auto& first = step.temperatures.front();
-  const auto refuse = [&](const std::string& text) { error({first.file, first.line}, "*TEMPERATURE: " + text); };
   if (std::ranges::none_of(model_.materials, [](const auto& material) { return material.expansion.has_value(); })) return;
   const auto moves = [](const NodalTemperature& said) { return said.magnitude != said.previous; };
   const bool superposes = std::holds_alternative<BuckleProcedure>(step.procedure) || std::holds_alternative<ModalDynamicProcedure>(step.procedure);
   if (superposes || (step.is_perturbation() && std::ranges::any_of(step.temperatures, moves)))
-    refuse(fmt::format("step {} of {} does not count thermal strains; use *STATIC or *DYNAMIC, or give the job no temperatures",
-                       step.name, step.procedure_name()));
+    error({step.temperatures.front().file, step.temperatures.front().line},
+          fmt::format("*TEMPERATURE: step {} of {} does not count thermal strains; use *STATIC or *DYNAMIC, or give the job no temperatures",
+                      step.name, step.procedure_name()));
 }
 
 void Checker::check_law(const Section& section, std::int32_t material) {

@@ -214,9 +214,10 @@ def refused(runner):
     assert done.returncode == 2 and "does not count thermal strains" in done.stderr + done.stdout, done.stderr
     deck = block()
     deck.add(MATERIAL)
-    deck.add(step(FINITE, ROLLERS, "*TEMPERATURE\nEVERY, %g" % (-1.5 / ALPHA)))
-    done, _ = runner.launch("nothing_left", deck, 1)
-    assert done.returncode == 3 and "nothing is left of it" in done.stderr + done.stdout, done.stderr
+    deck.add(step(FINITE, ROLLERS, "*TEMPERATURE\nX1, %g" % (-3.0 / ALPHA)))
+    for ranks in (1, 2):  # the elements of one rank
+        done, _ = runner.launch("nothing_left", deck, ranks)
+        assert done.returncode == 3 and "nothing is left of it" in done.stderr + done.stdout, done.stderr
 
 
 CASES = {case.__name__: case for case in (free, oriented, perturbed, imported, clamped, table, membrane, explicit, refused)}
