@@ -194,6 +194,11 @@ void Writer::analytical(const Surface& surface) {
 
 void Writer::surface(const Surface& surface) {
   if (surface.kind == Surface::Kind::analytical) return analytical(surface);
+  if (!surface.edges.empty()) {
+    line("*SURFACE, TYPE=ELEMENT, NAME={}", quoted(surface.name));
+    for (const auto& [element, edge] : surface.edges) line("{}, E{}", model_.elements[element.table].id[element.row], edge + 1);
+    return;
+  }
   if (surface.kind == Surface::Kind::nodes) {
     line("*SURFACE, TYPE=NODE, NAME={}", quoted(surface.name));
     for (const auto row : surface.nodes) line("{}", node_id(row));

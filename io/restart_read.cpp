@@ -113,7 +113,7 @@ class Preparation {
     };
     check(ended.boundary, next.boundary);
     check(ended.concentrated_loads, next.concentrated_loads);
-    check(ended.pressures, next.pressures);
+    check(ended.surface_loads, next.surface_loads);
     check(ended.temperatures, next.temperatures);
     check(ended.body_loads, next.body_loads);
     check(ended.connector_loads, next.connector_loads);

@@ -67,13 +67,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
     }
   });
   make_local_constraints();
-  pressure_faces.resize(model.surfaces.size());
-  const auto local = local_elements(model, element_groups);
-  for (const auto& step : model.steps)
-    for (const auto& load : step.pressures)
-      if (auto& faces = pressure_faces[load.surface]; !faces)
-        faces = std::make_unique<PressureFaces>(model, model.surfaces[load.surface], domain.local_node, local,
-                                                domain.scratch_node());
+  make_surface_loadings();
   mass_constant_ = inertia_sums_.sum(element_groups, false, inertia);
   collect_rotary_tensors();
 
@@ -132,6 +126,18 @@ void Analysis::find_places(std::int32_t constraint, std::vector<NodePlace>& plac
     place.rotation = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
     std::copy_n(&current.rotation[4 * node], 3, place.turn.component.begin());
   }
+}
+
+void Analysis::make_surface_loadings() {
+  const auto local = local_elements(model, element_groups);
+  for (const auto& step : model.steps)
+    for (const auto& load : step.surface_loads)
+      if (std::ranges::none_of(surface_loadings_, [&](const auto& known) { return acts_alike(known.first, load); }))
+        surface_loadings_.emplace_back(load, make_surface_loading(model, load, domain.local_node, local, domain.scratch_node()));
+}
+
+const SurfaceLoading& Analysis::loading(const SurfaceLoad& load) const {
+  return *std::ranges::find_if(surface_loadings_, [&](const auto& known) { return acts_alike(known.first, load); })->second;
 }
 
 void Analysis::collect_rotary_tensors() {

@@ -14,7 +14,7 @@
 #include "constraints/nodal_directions.hpp"
 #include "domain.hpp"
 #include "elements/small_strain_output.hpp"
-#include "loads/pressure_faces.hpp"
+#include "loads/surface_loading.hpp"
 #include "lumped_inertia.hpp"
 #include "model/model.hpp"
 #include "model/results.hpp"
@@ -41,7 +41,8 @@ class Analysis : public ResultSource {
   std::vector<std::unique_ptr<Constraint>> constraints;  // per Model::constraints
   std::vector<std::int32_t> first_constraint_row;        // of each constraint in State::multiplier, and how many rows there are
   std::vector<std::int32_t> local_constraints;           // those whose nodes are all on this rank, in order
-  std::vector<std::unique_ptr<PressureFaces>> pressure_faces;  // per Model::surfaces, null where no step presses on it
+  /// What a load of a step does on its surface; loads that differ in magnitude alone share it.
+  const SurfaceLoading& loading(const SurfaceLoad& load) const;
   LumpedInertia inertia;                           // as materials and sections give it, summed over ranks (order-free)
   /// As the explicit loop has it: with the elements' mass scales.
   const LumpedInertia& scaled_inertia() const { return scaled_inertia_.mass.empty() ? inertia : scaled_inertia_; }
@@ -126,6 +127,7 @@ class Analysis : public ResultSource {
   bool stays_linear(const Step& step) const;
   void leave_linear_geometry(const Step& step);
   void make_local_constraints();
+  void make_surface_loadings();
   /// Adds what a connector's constraints exert to a total force CTF (as of a spring that is pulled), or to a part of it: CRF of what holds,
   /// stops (friction at the stop included), locks or drives it, CSF of friction, CCF of loads.
   void add_connector_forces(ElementRef connector, std::string_view variable, std::span<double> values) const;
@@ -139,6 +141,7 @@ class Analysis : public ResultSource {
   void collect_rotary_tensors();
 
   InertiaSums inertia_sums_;
+  std::vector<std::pair<SurfaceLoad, std::unique_ptr<SurfaceLoading>>> surface_loadings_;
   LumpedInertia scaled_inertia_;  // empty: as `inertia`
   std::vector<std::int32_t> carrier_, reference_of_, turning_body_;
   std::map<ElementRef, std::vector<std::int32_t>> constraints_of_connector_;

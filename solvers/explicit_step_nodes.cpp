@@ -35,17 +35,17 @@ void ExplicitStep::find_loaded_nodes() {
   std::vector<bool> loaded(static_cast<std::size_t>(analysis_.domain.size()), false);
   for (const auto& load : step_.concentrated_loads)
     if (const auto node = analysis_.domain.local_node[load.node]; node >= 0) loaded[node] = true;
-  for (const auto& load : step_.pressures) {
-    const auto& faces = *analysis_.pressure_faces[load.surface];
-    for (std::int32_t face = 0; face < faces.size(); ++face)
-      for (const auto node : faces.nodes(face)) loaded[node] = true;
+  for (const auto& load : step_.surface_loads) {
+    const SurfaceLoading& loading = analysis_.loading(load);
+    for (std::int32_t item = 0; item < loading.size(); ++item)
+      for (const auto node : loading.nodes(item)) loaded[node] = true;
   }
   for (const auto& load : step_.body_loads) {
     const auto& share = analysis_.loaded_share(load);
     for (std::size_t node = 0; node < share.size(); ++node)
       if (share[node] != 0.0 && !is_left_out(analysis_, load, static_cast<std::int32_t>(node), CarriedGravity::left_out)) loaded[node] = true;
   }
-  has_loads_ = !step_.concentrated_loads.empty() || !step_.pressures.empty() || !step_.body_loads.empty();
+  has_loads_ = !step_.concentrated_loads.empty() || !step_.surface_loads.empty() || !step_.body_loads.empty();
   if (has_loads_)  // what another rank loads arrives through the halo
     for (const auto& neighbour : analysis_.domain.halo->neighbours())
       for (const auto node : neighbour.nodes) loaded[node] = true;

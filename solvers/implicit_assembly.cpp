@@ -27,7 +27,7 @@ Step with_initial_loads(const Step& step) {
     }
   };
   reset(initial.concentrated_loads);
-  reset(initial.pressures);
+  reset(initial.surface_loads);
   reset(initial.body_loads);
   return initial;
 }
@@ -50,7 +50,7 @@ bool ImplicitSystem::assemble(const AssemblyRequest& request) {
   add_elements(request.increment, sound);
   if (!everywhere_sound(sound)) return false;
   add_loads(request);
-  add_pressure_stiffness(request);
+  add_surface_load_stiffness(request);
   add_body_load_stiffness(request);
   add_follower_stiffness(request);
   if (dynamics_ && request.inertia) stiffness_.set_weight(dynamics_->contact_tangent_weight());
@@ -198,18 +198,17 @@ double ImplicitSystem::magnitude_of(const Load& load, const AssemblyRequest& req
                         request.total_time);
 }
 
-void ImplicitSystem::add_pressure_stiffness(const AssemblyRequest& request) {
-  constexpr std::size_t most = 3 * PressureFaces::most_nodes;
+void ImplicitSystem::add_surface_load_stiffness(const AssemblyRequest& request) {
+  constexpr std::size_t most = 3 * SurfaceLoading::most_nodes;
   std::array<double, most> force{};
   std::array<double, most * most> derivative{};
-  for (const auto& load : step_.pressures) {
-    const auto& faces = *analysis_.pressure_faces[load.surface];
-    const double pressure = magnitude_of(load, request);
-    for (std::int32_t face = 0; face < faces.size(); ++face) {
-      faces.linearize(face, request.load_stiffness ? -pressure : 0.0, analysis_.current.position.data(), force,
-                      derivative);
-      const std::size_t size = 3 * faces.nodes(face).size();
-      stiffness_.add(motions_of(faces.nodes(face)), std::span(derivative).first(size * size));
+  for (const auto& load : step_.surface_loads) {
+    const SurfaceLoading& loading = analysis_.loading(load);
+    const double magnitude = request.load_stiffness ? -magnitude_of(load, request) : 0.0;  // of the residual, from which loads are taken
+    for (std::int32_t item = 0; item < loading.size(); ++item) {
+      loading.linearize(item, magnitude, analysis_.current.position.data(), force, derivative);
+      const std::size_t size = 3 * loading.nodes(item).size();
+      stiffness_.add(motions_of(loading.nodes(item)), std::span(derivative).first(size * size));
     }
   }
 }

@@ -124,9 +124,8 @@ void ImplicitSystem::record_pattern() {
   for (const auto& group : analysis_.element_groups)
     for (std::int32_t element = 0; element < group->size(); ++element)
       if (analysis_.takes_part(*group, element) && !moves_as_one(*group, element)) stiffness_.add(motions_of(*group, element), {});
-  for (const auto& load : step_.pressures)
-    for (std::int32_t face = 0; face < analysis_.pressure_faces[load.surface]->size(); ++face)
-      stiffness_.add(motions_of(analysis_.pressure_faces[load.surface]->nodes(face)), {});
+  for (const auto& load : step_.surface_loads)
+    for (std::int32_t item = 0; item < analysis_.loading(load).size(); ++item) stiffness_.add(motions_of(analysis_.loading(load).nodes(item)), {});
   for_each_spun_node([&](std::int32_t node, const BodyLoad&, double) { stiffness_.add(std::array{map_.motion(node)}, {}); });
   for (const auto& load : step_.concentrated_loads)
     if (const auto motion = followed_motion(load)) stiffness_.add(*motion, {});

@@ -116,7 +116,7 @@ class ImplicitSystem {
   void add_loads(const AssemblyRequest& request);
   template <class Load>
   double magnitude_of(const Load& load, const AssemblyRequest& request) const;
-  void add_pressure_stiffness(const AssemblyRequest& request);
+  void add_surface_load_stiffness(const AssemblyRequest& request);
   void add_body_load_stiffness(const AssemblyRequest& request);
   void add_follower_stiffness(const AssemblyRequest& request);
   /// Displacement and spin of the node of a concentrated load that follows; none where another rank owns it.

@@ -96,7 +96,7 @@ double ModalDynamicStep::load_change(double from, double to) const {
     }
   };
   look(step_.concentrated_loads);
-  look(step_.pressures);
+  look(step_.surface_loads);
   look(step_.body_loads);
   return greatest;
 }

@@ -92,8 +92,8 @@ void add_external_forces(const Analysis& analysis, const Step& step, double step
     return load_magnitude(analysis.model, step, load.previous, load.magnitude, load.amplitude, step_time, total_time);
   };
   for (const auto& load : step.concentrated_loads) add_concentrated_load(analysis, load, magnitude_of(load), forces, moments);
-  for (const auto& load : step.pressures)
-    analysis.pressure_faces[load.surface]->add_forces(magnitude_of(load), position, forces.force);
+  for (const auto& load : step.surface_loads)
+    analysis.loading(load).add_forces(magnitude_of(load), position, forces.force);
   for (const auto& load : step.body_loads) add_body_load(analysis, load, magnitude_of(load), position, forces.force, carried);
 }
 

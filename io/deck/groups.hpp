@@ -14,4 +14,10 @@ void finish_output(Builder& builder);
 /// Face of an element type named S1..S6, SPOS or SNEG; negative if it has none such (surfaces.cpp).
 int face_of_label(const ElementType& type, std::string_view label);
 
+/// Edge E1 .. E4 of a sheet from 0 on, or -1.
+int edge_of_label(const ElementType& type, std::string_view label);
+
+/// To what wants nodes, a coupling say, a surface of edges is one of their nodes.
+void settle_edges(const Model& model, Surface& surface);
+
 }  // namespace balocco::deck

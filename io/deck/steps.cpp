@@ -67,7 +67,7 @@ void inherit(Builder& builder, Step& step) {
   step.boundary = before.boundary;
   for (auto& condition : step.boundary) propagate(model, condition, before.duration());
   step.concentrated_loads = before.concentrated_loads;
-  step.pressures = before.pressures;
+  step.surface_loads = before.surface_loads;
   step.body_loads = before.body_loads;
   step.temperatures = before.temperatures;
   step.connector_motions = before.connector_motions;
@@ -93,7 +93,7 @@ void inherit(Builder& builder, Step& step) {
     std::erase_if(loads, [](const auto& load) { return load.magnitude == 0.0 && load.previous == 0.0; });
   };
   settle(step.concentrated_loads);
-  settle(step.pressures);
+  settle(step.surface_loads);
   settle(step.body_loads);
   settle(step.connector_loads);
   for (auto& temperature : step.temperatures) {
@@ -159,7 +159,7 @@ void drop_loads_of_the_state(Builder& builder, Step& step) {
     for (auto& load : loads) load.previous = 0.0;
   };
   drop(step.concentrated_loads);
-  drop(step.pressures);
+  drop(step.surface_loads);
   drop(step.body_loads);
 }
 
@@ -209,7 +209,7 @@ void make_static_perturbation(Builder& builder, const Block& block) {
     }
   };
   add(step.concentrated_loads);
-  add(step.pressures);
+  add(step.surface_loads);
   add(step.body_loads);
   for (const auto& condition : step.boundary)
     if (!condition.propagated && condition.amplitude >= 0)

@@ -53,7 +53,7 @@ void act_at_once(Builder& builder) {
     }
   };
   load(step.concentrated_loads);
-  load(step.pressures);
+  load(step.surface_loads);
   load(step.temperatures);
   load(step.body_loads);
   load(step.connector_loads);

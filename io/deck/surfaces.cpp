@@ -63,28 +63,9 @@ void add_free_faces(Builder& builder, const std::vector<ElementRef>& elements, S
   }
 }
 
-/// Adds the ends of edge E1 .. E4 of a sheet. @return false if the label names none.
-bool add_edge(const Model& model, ElementRef element, std::string_view label, std::vector<std::int32_t>& nodes) {
-  const ElementTable& table = model.elements[element.table];
-  const int count = table.type->nodes, edge = label.size() == 2 && label[0] == 'E' ? label[1] - '1' : -1;
-  const bool sheet = table.type->section == Section::Kind::shell || table.type->section == Section::Kind::membrane;
-  if (!sheet || edge < 0 || edge >= count) return false;
-  for (const int local : {edge, (edge + 1) % count}) nodes.push_back(table.connectivity[element.row * count + local]);
-  return true;
-}
-
 void sort_nodes(std::vector<std::int32_t>& nodes) {
   std::sort(nodes.begin(), nodes.end());
   nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
-}
-
-/// Edges of sheets make a surface of their nodes: what a coupling wants.
-void settle_edges(Builder& builder, const Block& block, Surface& surface) {
-  if (surface.nodes.empty()) return;
-  if (!surface.faces.empty())
-    builder.error(block, block.location, "a surface is made of faces or of edges E1 to E4, not of both; make two of it");
-  surface.kind = Surface::Kind::nodes;
-  sort_nodes(surface.nodes);
 }
 
 void read_element_faces(Builder& builder, const Block& block, Surface& surface) {
@@ -98,8 +79,11 @@ void read_element_faces(Builder& builder, const Block& block, Surface& surface) 
       continue;
     }
     for (const auto element : elements) {
-      if (add_edge(builder.model, element, row.name(1), surface.nodes)) continue;
       const ElementType& type = *builder.model.elements[element.table].type;
+      if (const int edge = edge_of_label(type, row.name(1)); edge >= 0) {
+        surface.edges.push_back({element, edge});
+        continue;
+      }
       const int face = face_of_label(type, row.name(1));
       if (face < 0) {
         row.error(fmt::format("element {} of type {} has no face {}; {}", builder.model.element_name(element), type.name,
@@ -112,8 +96,10 @@ void read_element_faces(Builder& builder, const Block& block, Surface& surface) 
       surface.faces.push_back({element, face});
     }
   }
-  settle_edges(builder, block, surface);
-  if (surface.faces.empty() && surface.nodes.empty() && !builder.elements_incomplete && !builder.is_poisoned(block.value("NAME"))) {
+  if (!surface.edges.empty() && !surface.faces.empty())
+    builder.error(block, block.location, "a surface is made of faces or of edges E1 to E4, not of both; make two of it");
+  settle_edges(builder.model, surface);
+  if (surface.faces.empty() && surface.edges.empty() && !builder.elements_incomplete && !builder.is_poisoned(block.value("NAME"))) {
     builder.error(block, block.location,
                   "the surface has no faces; name element sets that have free faces, or a face label");
   }
@@ -219,6 +205,23 @@ const RegisterKeyword surface{
      read_surface}};
 
 }  // namespace
+
+void settle_edges(const Model& model, Surface& surface) {
+  if (surface.edges.empty()) return;
+  surface.kind = Surface::Kind::nodes;
+  for (const auto& [element, edge] : surface.edges) {
+    const ElementTable& table = model.elements[element.table];
+    const int count = table.type->nodes;
+    for (const int local : {edge, (edge + 1) % count}) surface.nodes.push_back(table.connectivity[element.row * count + local]);
+  }
+  sort_nodes(surface.nodes);
+}
+
+int edge_of_label(const ElementType& type, std::string_view label) {
+  const bool sheet = type.section == Section::Kind::shell || type.section == Section::Kind::membrane;
+  const int edge = label.size() == 2 && label[0] == 'E' ? label[1] - '1' : -1;
+  return sheet && edge < type.nodes ? edge : -1;
+}
 
 int face_of_label(const ElementType& type, std::string_view label) {
   const auto count = static_cast<int>(type.faces.size());

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "deck/body_loads.hpp"
+#include "deck/surface_loads.hpp"
 #include "deck/writer.hpp"
 
 namespace balocco::deck {
@@ -234,10 +235,11 @@ void Writer::loads(const Step& step) {
     head("*TEMPERATURE", temperature.amplitude);
     line("{}, {}", node_id(temperature.node), temperature.magnitude);
   }
-  for (const auto& load : step.pressures) {
+  for (auto load : step.surface_loads) {
     if (!is_said(load)) continue;
-    head("*DSLOAD", load.amplitude);
-    line("{}, P, {}", quoted(model_.surfaces[load.surface].name), said(load));
+    head(fmt::format("*DSLOAD{}", surface_load_parameters(load)), load.amplitude);
+    load.magnitude = said(load);
+    line("{}, {}", quoted(model_.surfaces[load.surface].name), surface_load_text(load));
   }
   for (auto load : step.body_loads) {
     if (!is_said(load)) continue;

@@ -98,11 +98,11 @@ class StepAuthor {
 
   void press(Step& step, double pressure, double previous) const {
     if (pressure <= 0.0) return;
-    PressureLoad load;
+    SurfaceLoad load;
     load.surface = mesh_.liner_surface;
     load.magnitude = pressure;
     load.previous = previous;
-    step.pressures.push_back(load);
+    step.surface_loads.push_back(load);
   }
 
   /// The force that presses the road against the tyre.

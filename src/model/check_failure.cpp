@@ -50,14 +50,14 @@ void check_elements(const Model& model, Errors& errors) {
   }
 }
 
-void check_pressures(const Model& model, const Step& step, Errors& errors) {
-  for (const auto& load : step.pressures)
-    for (const auto& face : model.surfaces[load.surface].faces) {
+void check_surface_loads(const Model& model, const Step& step, Errors& errors) {
+  for (const auto& load : step.surface_loads)
+    for (const auto& face : acts_on_edges(load.kind) ? model.surfaces[load.surface].edges : model.surfaces[load.surface].faces) {
       const auto& table = model.elements[face.element.table];
       const Material* material = failing_material(model, table, face.element.row);
       if (material == nullptr) continue;
       errors.emplace_back(Location{load.file, load.line},
-                          fmt::format("pressure on surface {} would go on after element {} is deleted (*SHEAR FAILURE of material "
+                          fmt::format("the load on surface {} would go on after element {} is deleted (*SHEAR FAILURE of material "
                                       "{}); take such elements out of the surface",
                                       model.surfaces[load.surface].name, table.id[face.element.row], material->name));
       break;
@@ -72,7 +72,7 @@ Errors check_failure(const Model& model) {
   if (!any) return errors;
   check_elements(model, errors);
   for (const auto& step : model.steps)
-    if (std::holds_alternative<ExplicitProcedure>(step.procedure)) check_pressures(model, step, errors);
+    if (std::holds_alternative<ExplicitProcedure>(step.procedure)) check_surface_loads(model, step, errors);
   return errors;
 }
 

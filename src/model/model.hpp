@@ -96,6 +96,7 @@ struct Surface {
   std::string name;
   std::vector<FaceRef> faces;
   std::vector<std::int32_t> nodes;
+  std::vector<FaceRef> edges;  // of sheets, edge i from corner i to the next; `nodes` are theirs then
   std::optional<AnalyticalSurface> analytical;
   Location location;
 };

@@ -55,14 +55,33 @@ struct ConnectorLoad {
   std::int32_t file = -1, line = 0;
 };
 
-/// Pressure on element faces, positive towards the face; it follows the deforming surface.
-struct PressureLoad {
-  std::int32_t surface = -1;    // row of Model::surfaces (element faces)
+/// A load spread over the faces of a surface, by area, or over its edges, by length.
+struct SurfaceLoad {
+  enum class Kind {
+    pressure,         // against the normal
+    traction,         // along `direction`
+    shear,            // along `direction` without its part along the normal of the reference
+    edge_traction,    // along `direction`
+    edge_normal,      // in the sheet, into it
+    edge_shear,       // along the edge, from corner to corner as the element has them
+    edge_transverse   // against the sheet's normal
+  } kind = Kind::pressure;
+  std::int32_t surface = -1;    // row of Model::surfaces
+  std::array<double, 3> direction{};  // unit
+  bool follows = true;         // `direction` turns with the surface
+  bool of_reference = false;   // by the area or length of the reference, not by those of now
   double magnitude = 0.0;
   double previous = 0.0;
   std::int32_t amplitude = -1;
   std::int32_t file = -1, line = 0;
 };
+
+constexpr bool acts_on_edges(SurfaceLoad::Kind kind) { return kind >= SurfaceLoad::Kind::edge_traction; }
+
+/// Whether two loads differ in magnitude alone.
+inline bool acts_alike(const SurfaceLoad& a, const SurfaceLoad& b) {
+  return a.kind == b.kind && a.surface == b.surface && a.direction == b.direction && a.follows == b.follows && a.of_reference == b.of_reference;
+}
 
 /// A force on all matter of an element set (-1: the whole model).
 struct BodyLoad {
@@ -301,7 +320,7 @@ struct Step {
 
   std::vector<BoundaryCondition> boundary;
   std::vector<ConcentratedLoad> concentrated_loads;
-  std::vector<PressureLoad> pressures;
+  std::vector<SurfaceLoad> surface_loads;
   std::vector<BodyLoad> body_loads;
   std::vector<NodalTemperature> temperatures;  // one a node
   std::vector<ConnectorMotion> connector_motions;

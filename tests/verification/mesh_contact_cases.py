@@ -288,7 +288,7 @@ def at_rest(runner):
         static(deck, "*BOUNDARY\nBASE, 1, 3\nTOP, 2, 2\nTOP, 3, 3, -0.02\nTOP, 1, 1, 0.002\n", "0.5, 1.")
         deck.add("*STEP, NLGEOM=YES\n*DYNAMIC, EXPLICIT\n, 0.01\n*BULK VISCOSITY\n0., 0.\n%s*END STEP" % OUTPUT.replace(
             "U, RF", "U, V").replace("FIELD, FREQUENCY=1,", "FIELD, NUMBER INTERVAL=2,"))
-        results = [runner.run("rest_" + name, deck, ranks) for ranks in (1, 2, 3)]
+        results = [runner.run("rest_" + name, deck, ranks) for ranks in ((1, 2, 3) if name == "faces" else (1, 2))]
         before, after = history(results[0], "CFN", 1)[-1][2], history(results[0], "CFN", 2)[:, 2]
         assert np.abs(after - before).max() < 1e-3 * before, "normal force moves from %g to %g ... %g" % (before, after.min(), after.max())
         held, kept = history(results[0], "CFT", 1)[-1][0], history(results[0], "CFT", 2)[:, 0]

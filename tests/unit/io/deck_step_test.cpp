@@ -69,7 +69,7 @@ TEST(DeckStep, CurvesOverStepTimeLeaveWhatTheyReached) {
     EXPECT_EQ(step.concentrated_loads[0].amplitude, -1);
     EXPECT_EQ(step.concentrated_loads[1].magnitude, 4.0);
     EXPECT_EQ(step.concentrated_loads[1].amplitude, 2);
-    EXPECT_EQ(step.pressures[0].magnitude, 2.0);
+    EXPECT_EQ(step.surface_loads[0].magnitude, 2.0);
     EXPECT_EQ(step.body_loads[0].magnitude, 4.5);
     EXPECT_EQ(step.body_loads[0].amplitude, -1);
     EXPECT_EQ(step.boundary[0].magnitude, 1.5);
@@ -102,8 +102,8 @@ TEST(DeckStep, ControlsOfIncrementsMaySayWhatHoldsAnyway) {
 TEST(DeckStep, PressureOnFacesAndGravity) {
   const auto model = read(brick + "*STEP\n*STATIC\n*DLOAD\nALL, P2, 4.\n, GRAV, 9.81, 0., 0., -2.\n*END STEP\n").model;
   const Step& step = model.steps[0];
-  ASSERT_EQ(step.pressures.size(), 1u);
-  EXPECT_EQ(model.surfaces[step.pressures[0].surface].faces[0].face, 1);
+  ASSERT_EQ(step.surface_loads.size(), 1u);
+  EXPECT_EQ(model.surfaces[step.surface_loads[0].surface].faces[0].face, 1);
   ASSERT_EQ(step.body_loads.size(), 1u);
   EXPECT_EQ(step.body_loads[0].element_set, -1);
   EXPECT_EQ(step.body_loads[0].direction, (std::array<double, 3>{0, 0, -1}));

@@ -82,7 +82,7 @@ inline void add_loads(Model& model) {
   model.steps.resize(1);
   Step& step = model.steps[0];
   step.active_contact_pairs = {0};
-  step.pressures.push_back({.surface = 1, .magnitude = 3.0});
+  step.surface_loads.push_back({.surface = 1, .magnitude = 3.0});
   step.concentrated_loads.push_back({.node = hub, .dof = 4, .magnitude = 2.0});
   step.concentrated_loads.push_back({.node = row(2, 1, 1), .dof = 1, .magnitude = 5.0});
   step.concentrated_loads.push_back({.node = hub, .dof = 0, .magnitude = 7.0, .follower = true});

@@ -106,7 +106,7 @@ TEST_F(StaticEquations, ResidualAndStiffnessDoNotDependOnTheRanks) {
 // motion of everything does no work, since the loads beside pressure are left out.
 TEST(ImplicitSystem, ARigidMotionOfEverythingDoesNoWorkOnInternalAndContactForces) {
   Model model = beam();
-  model.steps[0].pressures.clear();
+  model.steps[0].surface_loads.clear();
   model.steps[0].concentrated_loads.clear();
   const Communicator communicator;
   Equations beam(model, communicator);

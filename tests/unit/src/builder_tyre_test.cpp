@@ -270,7 +270,7 @@ TEST(TyreModel, StepsSeatInflateTouchLoadAndRoll) {
   EXPECT_TRUE(model.steps[1].active_contact_pairs.empty());
   ASSERT_EQ(model.steps[1].attachments.size(), 1u);
   EXPECT_EQ(model.steps[1].attachments[0].nodes.size(), left.size() + nodes_of(model, "BEAD_RIGHT").size());
-  EXPECT_DOUBLE_EQ(model.steps[1].pressures[0].previous, 0.02);
+  EXPECT_DOUBLE_EQ(model.steps[1].surface_loads[0].previous, 0.02);
   EXPECT_DOUBLE_EQ(model.steps[3].concentrated_loads[0].magnitude, 3061.0);
   EXPECT_TRUE(model.steps[2].concentrated_loads.empty());
   // Rolling: the hub spins freely, the road travels backwards at its height, the wheel turns forwards.

@@ -1,0 +1,107 @@
+#include "deck/surface_loads.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <array>
+#include <ranges>
+
+#include "deck/geometry.hpp"
+#include "deck/load_magnitude.hpp"
+
+namespace balocco::deck {
+
+namespace {
+
+using Kind = SurfaceLoad::Kind;
+
+struct Label {
+  const char* name;
+  Kind kind;
+  bool has_direction = false, may_stay = false;  // a direction is given; FOLLOWER=NO may keep it
+};
+
+constexpr std::array labels{Label{"P", Kind::pressure},
+                            Label{"TRVEC", Kind::traction, true, true},
+                            Label{"TRSHR", Kind::shear, true},
+                            Label{"EDLD", Kind::edge_traction, true, true},
+                            Label{"EDNOR", Kind::edge_normal},
+                            Label{"EDSHR", Kind::edge_shear},
+                            Label{"EDTRA", Kind::edge_transverse}};
+
+const Label& label_of(Kind kind) { return *std::ranges::find(labels, kind, &Label::kind); }
+
+/// What the keyword's parameters say of a load. @return false, told, if they do not belong to its kind.
+bool read_parameters(const Block& block, Row& row, const Label& label, SurfaceLoad& load) {
+  if (block.has("FOLLOWER") && !label.may_stay) {
+    row.error(fmt::format("FOLLOWER belongs to TRVEC and EDLD; {} always follows its surface: remove FOLLOWER, or give this line a keyword of "
+                          "its own",
+                          label.name));
+    return false;
+  }
+  if (block.has("CONSTANT RESULTANT") && load.kind == Kind::pressure) {
+    row.error("CONSTANT RESULTANT belongs to tractions; remove it, or give P a keyword of its own");
+    return false;
+  }
+  load.follows = block.value("FOLLOWER", "YES") == "YES";
+  load.of_reference = block.value("CONSTANT RESULTANT", "NO") == "YES";
+  return true;
+}
+
+void place(Builder& builder, const SurfaceLoad& said) {
+  auto& loads = current_step(builder).surface_loads;
+  for (auto& other : loads) {
+    if (other.surface != said.surface || other.kind != said.kind || acts_alike(other, said) || builder.draft.said_here(other)) continue;
+    other.magnitude = 0.0;
+    other.amplitude = -1;
+  }
+  auto found = std::ranges::find_if(loads, [&](const SurfaceLoad& load) { return acts_alike(load, said); });
+  const double previous = found == loads.end() ? 0.0 : found->previous;
+  if (found == loads.end()) found = loads.insert(loads.end(), said);
+  *found = said;
+  found->previous = previous;
+  builder.draft.said.insert({said.file, said.line});
+}
+
+}  // namespace
+
+std::optional<Kind> surface_load_kind(std::string_view label) {
+  const auto found = std::ranges::find_if(labels, [&](const Label& each) { return label == each.name; });
+  return found == labels.end() ? std::nullopt : std::optional(found->kind);
+}
+
+std::string surface_load_labels() {
+  return fmt::format("{}", fmt::join(labels | std::views::transform(&Label::name), ", "));
+}
+
+void read_surface_load_line(Builder& builder, const Block& block, Row& row, Kind kind, std::int32_t surface, std::int32_t amplitude) {
+  const Label& label = label_of(kind);
+  SurfaceLoad load{.kind = kind, .surface = surface};
+  if (!read_parameters(block, row, label, load)) return;
+  load.magnitude = scaled(builder, amplitude, row.real(2, kind == Kind::pressure ? "pressure" : "traction"));
+  if (label.has_direction) load.direction = row.point(3, "direction");
+  row.at_most(label.has_direction ? 6 : 3);
+  if (!row.ok()) return;
+  if (label.has_direction) {
+    const double size = norm(load.direction);
+    if (!(size > 0.0)) return row.error(fmt::format("the direction of {} has no length; give its three components after the magnitude", label.name));
+    for (double& component : load.direction) component /= size;
+  }
+  load.amplitude = amplitude;
+  load.file = row.location().file;
+  load.line = row.location().line;
+  place(builder, load);
+}
+
+std::string surface_load_parameters(const SurfaceLoad& load) {
+  return fmt::format("{}{}", load.follows ? "" : ", FOLLOWER=NO", load.of_reference ? ", CONSTANT RESULTANT=YES" : "");
+}
+
+std::string surface_load_text(const SurfaceLoad& load) {
+  const Label& label = label_of(load.kind);
+  return label.has_direction ? fmt::format("{}, {}, {}", label.name, load.magnitude, fmt::join(load.direction, ", "))
+                             : fmt::format("{}, {}", label.name, load.magnitude);
+}
+
+}  // namespace balocco::deck
