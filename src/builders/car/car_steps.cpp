@@ -164,7 +164,9 @@ class StepText {
   /// Free wheels let the car roll along: that alone is held, and hardly pulls; all else is held by friction.
   void stand() {
     begin("STAND", 0.1, 0.25);
-    deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 1", spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE");
+    const char* middle = spec_.fidelity == "complete" ? "ENGINE" : "BODY_REFERENCE";
+    deck_.line("*BOUNDARY, OP=NEW\n{}, 1, 1", middle);
+    if (friction() == 0.0) hold_what_friction_would(middle);
     hold_roads(rise());
     inflate(tyre_.statics.pressure);
     weight();
@@ -189,11 +191,19 @@ class StepText {
   }
 
  private:
+  double friction() const { return spec_.chassis.standing_friction.value_or(spec_.chassis.road.friction); }
+  /// A road without friction lets the car slide across and turn round, and its wheels spin: nothing pulls there.
+  void hold_what_friction_would(const char* middle) {
+    deck_.line("{}, 2, 2", middle);
+    deck_.line("{}", spec_.fidelity == "complete" ? "SPRING_SEAT_REAR_LEFT, 2, 2" : "BODY_REFERENCE, 6, 6");
+    hold_hubs(5, 5);
+  }
   double rise() const { return facts_.outer_radius + spec_.chassis.road.clearance - spec_.profile.wheel_height; }
 
   void begin(const char* name, double first, double largest) {
     write_static_step(name, first, largest, deck_);
     if (std::exchange(begun_, true)) return;
+    if (friction() != spec_.chassis.road.friction) deck_.line("*CHANGE FRICTION, INTERACTION=GRIP\n*FRICTION\n{:g}", friction());
     deck_.line("*MODEL CHANGE, TYPE=CONTACT PAIR, REMOVE");
     write_road_pairs(deck_);
     write_rim_pairs(tyre_, deck_);

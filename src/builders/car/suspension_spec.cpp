@@ -224,6 +224,11 @@ void read_chassis(SpecTable& top, const CarChoices& choices, const ChassisPlace&
   read_wheel(top, place, chassis.wheel);
   read_engine(top, chassis.engine);
   read_road(top, chassis.road);
+  if (top.has("equilibrium")) {
+    auto table = top.table("equilibrium");
+    chassis.standing_friction = table.number("friction", Bounds::not_negative(""));
+    table.refuse_unknown();
+  }
   read_drive(top, choices, chassis.drive);
   if (chassis.drive.obstacle != "comfort") chassis.road.obstacle_height = 0.0;
   if (chassis.drive.obstacle != "pothole") chassis.road.pothole.depth = 0.0;

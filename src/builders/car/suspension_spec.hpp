@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -101,6 +102,7 @@ struct ChassisSpec {
   WheelSpec wheel;
   EngineSpec engine;
   RoadSpec road;
+  std::optional<double> standing_friction;  // of the road while the car is brought to stand; none: as in the drive
   DriveSpec drive;
 };
 

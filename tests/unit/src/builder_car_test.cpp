@@ -342,5 +342,13 @@ TEST(CarBuilder, ATyreLosesItsAirAsTheDriveBegins) {
   EXPECT_NE(drive.find("*DSLOAD\nLINER_REAR_RIGHT, P, 0.22\n"), std::string::npos);
 }
 
+TEST(CarBuilder, MayStandUpOnARoadWithoutFriction) {
+  const auto slippery = build_car(main_spec() + "[equilibrium]\nfriction = 0.0\n", BALOCCO_CAR_SPEC, files, {.obstacle = "", .fidelity = "complete"});
+  EXPECT_NE(slippery.equilibrium.find("*CHANGE FRICTION, INTERACTION=GRIP\n*FRICTION\n0\n"), std::string::npos);
+  EXPECT_NE(slippery.equilibrium.find("*BOUNDARY, OP=NEW\nENGINE, 1, 1\nENGINE, 2, 2\nSPRING_SEAT_REAR_LEFT, 2, 2\nHUB_FRONT_LEFT, 5, 5\n"), std::string::npos);
+  EXPECT_EQ(slippery.drive.find("*CHANGE FRICTION"), std::string::npos);
+  EXPECT_EQ(built(main_spec()).equilibrium.find("*CHANGE FRICTION"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace balocco::car
