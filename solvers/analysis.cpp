@@ -117,15 +117,18 @@ void Analysis::make_local_constraints() {
 
 void Analysis::find_places(std::int32_t constraint, std::vector<NodePlace>& places) const {
   places.clear();
-  for (const auto row : constraints[constraint]->nodes()) {
-    const auto node = domain.local_node[row];
-    auto& place = places.emplace_back();
-    std::copy_n(&current.position[4 * node], 3, place.position.component.begin());
-    if (node >= domain.turning) continue;
-    const double* q = &current.orientation[4 * node];
-    place.rotation = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
-    std::copy_n(&current.rotation[4 * node], 3, place.turn.component.begin());
-  }
+  for (const auto row : constraints[constraint]->nodes()) places.push_back(place_of(row));
+}
+
+NodePlace Analysis::place_of(std::int32_t row) const {
+  const auto node = domain.local_node[row];
+  NodePlace place;
+  std::copy_n(&current.position[4 * node], 3, place.position.component.begin());
+  if (node >= domain.turning) return place;
+  const double* q = &current.orientation[4 * node];
+  place.rotation = rotation_matrix(Quaternion<double>{q[0], q[1], q[2], q[3]});
+  std::copy_n(&current.rotation[4 * node], 3, place.turn.component.begin());
+  return place;
 }
 
 void Analysis::make_surface_loadings() {

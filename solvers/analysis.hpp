@@ -87,6 +87,7 @@ class Analysis : public ResultSource {
   void index_rigid_nodes();
   /// Where the nodes of a local constraint are.
   void find_places(std::int32_t constraint, std::vector<NodePlace>& places) const;
+  NodePlace place_of(std::int32_t row) const;  // of a node of the model that this rank has
   /// Puts the carried nodes where their bodies are.
   void place_rigid_nodes(std::vector<double>& position) const;
 

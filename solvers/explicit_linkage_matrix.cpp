@@ -50,8 +50,19 @@ void ExplicitLinkages::find_matrix(System& system, double average) const {
     }
   }
   for (const auto& member : system.members)
+    if (member.cloud) add_cloud(system, member, average);
+  for (const auto& member : system.members)
     for (const auto& shared : member.shared) let_go(system, member, shared);
   if (system.hub >= 0) find_hub_blocks(system, average);
+}
+
+void ExplicitLinkages::add_cloud(System& system, const Member& member, double average) {
+  const auto response = member.cloud->response(member.places.front().rotation);
+  const auto number = static_cast<std::int32_t>(&member - system.members.data());
+  auto& block = system.blocks.block(system.blocks.place(number, number));
+  for (std::size_t i = 0; i < member.rows.size(); ++i)
+    for (std::size_t j = 0; j < member.rows.size(); ++j)
+      block[i][static_cast<int>(j)] += average * response(member.components[member.rows[i]], member.components[member.rows[j]]);
 }
 
 void ExplicitLinkages::let_go(System& system, const Member& member, const Shared& shared) {
@@ -142,7 +153,9 @@ void ExplicitLinkages::correct(System& system) const {
 
 double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, bool rotation) {
   const auto kind = rotation ? Mover::Kind::rotation : Mover::Kind::translation;
-  for (auto& system : systems_)
+  for (auto& system : systems_) {
+    for (const auto& member : system.members)
+      if (!rotation && member.cloud && member.cloud->has(node)) return member.cloud->inverse_mass(node);
     for (const auto& mover : system.movers) {
       if (mover.kind != kind || mover.index != node) continue;
       if (mover.first_unknown < 0) return mover.inverse_inertia;
@@ -161,6 +174,7 @@ double ExplicitLinkages::mobility(const Analysis& analysis, std::int32_t node, b
       system.factorized_for = 0.0;
       return trace;
     }
+  }
   return clusters_.mobility(node, rotation);
 }
 

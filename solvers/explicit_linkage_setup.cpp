@@ -28,13 +28,19 @@ ExplicitLinkages::ExplicitLinkages(Analysis& analysis, const Step& step, const N
 void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
   auto& system = systems_.emplace_back();
   system.size = model_size(analysis.model);
+  Uses uses;
+  for (const auto index : linkage.constraints)
+    for (const auto row : analysis.constraints[index]->nodes()) ++uses[row];
   for (const auto index : linkage.constraints) {
     const auto& constraint = *analysis.constraints[index];
     Member member;
     member.constraint = index;
     member.is_guide = constraint.guide() != nullptr;
     system.has_guides = system.has_guides || member.is_guide;
-    for (std::size_t i = 0; i < constraint.nodes().size(); ++i)
+    member.coupling = dynamic_cast<const DistributingConstraint*>(&constraint);
+    member.cloud = cloud_of(analysis, member.coupling, uses);
+    if (member.cloud) member.components = member.coupling->components();
+    for (std::size_t i = 0; i < (member.cloud ? 1 : constraint.nodes().size()); ++i)
       member.nodes.push_back(use_of(analysis, system, constraint.nodes()[i], constraint.turns(static_cast<int>(i))));
     const bool by_bodies = std::ranges::any_of(member.nodes, [&](const NodeUse& use) {
       return system.movers[use.translation].kind == Mover::Kind::body ||
@@ -53,6 +59,19 @@ void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
   drop_implied_rows(analysis, system);
   number(system);
   take_guides(analysis, system);
+}
+
+/// Nothing, if another constraint, a body or a condition takes part in the motion of one of its nodes, or one has no mass.
+std::optional<ExplicitCloud> ExplicitLinkages::cloud_of(const Analysis& analysis, const DistributingConstraint* coupling, const Uses& uses) const {
+  if (coupling == nullptr || !coupling->knows_moments_alone()) return std::nullopt;
+  std::vector<std::int32_t> nodes;
+  for (const auto row : std::span(coupling->nodes()).subspan(1)) {
+    const auto node = analysis.domain.local_node[row];
+    const bool alone = uses.at(row) == 1 && analysis.carrier(node) < 0 && analysis.reference_of(node) < 0 && translations_.of_node(node).empty();
+    if (!alone || !(inverse_.mass[node] > 0.0)) return std::nullopt;
+    nodes.push_back(node);
+  }
+  return ExplicitCloud(*coupling, nodes, inverse_.mass);
 }
 
 std::int32_t ExplicitLinkages::mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index) {
@@ -98,6 +117,8 @@ void ExplicitLinkages::renew_inertia(const Analysis& analysis, InverseInertia& i
   for (auto& system : systems_) {
     for (auto& mover : system.movers)
       if (mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation) take_inertia(mover);
+    for (auto& member : system.members)
+      if (member.cloud) member.cloud->take_inertia(inverse_.mass);
     system.factorized_for = 0.0;
     take_over(system, inverse);
   }
@@ -149,6 +170,14 @@ void ExplicitLinkages::list_columns(System& system) const {
   }
 }
 
+/// What tells a row from others besides the columns of movers: columns of the response of its own cloud, in parts of its mobility.
+void ExplicitLinkages::add_cloud(const System& system, const Member& member, std::size_t row, SparseRow& columns) {
+  const auto response = member.cloud->response(member.places.front().rotation);
+  const auto first = static_cast<std::int64_t>(system.mover_of_column.size()) + 6 * (&member - system.members.data());
+  const int component = member.components[member.rows[row]];
+  for (int c = 0; c < 6; ++c) columns.emplace_back(first + c, response(component, c) / response(0, 0));
+}
+
 /// Rows that others imply would leave the multipliers without a single solution.
 void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) const {
   find_places(analysis, system);
@@ -185,6 +214,7 @@ void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) con
         }
         k += mover.size;
       }
+      if (member.cloud) add_cloud(system, member, i, row);
       rows.push_back(std::move(row));
     }
   const auto implied = dependent_rows(rows);
@@ -272,6 +302,12 @@ void ExplicitLinkages::list_shared_movers(System& system) const {
 }
 
 void ExplicitLinkages::take_over(const System& system, InverseInertia& inverse) {
+  for (const auto& member : system.members)
+    if (member.cloud)
+      member.cloud->for_each_node([&](std::int32_t node) {
+        inverse.mass[node] = 0.0;
+        moves_[node] = true;
+      });
   for (const auto& mover : system.movers) {
     if (mover.kind == Mover::Kind::translation) {
       inverse.mass[mover.index] = 0.0;
@@ -297,9 +333,14 @@ ExplicitLinkages::Company ExplicitLinkages::company(std::int32_t node, bool rota
   const auto kind = rotation ? Mover::Kind::rotation : Mover::Kind::translation;
   Company company{.nodes = clusters_.company(node, rotation), .bodies = {}};
   for (const auto& system : systems_) {
-    if (std::ranges::none_of(system.movers, [&](const Mover& mover) { return mover.kind == kind && mover.index == node; })) continue;
+    const auto in_cloud = [&](const Member& member) { return !rotation && member.cloud && member.cloud->has(node); };
+    if (std::ranges::none_of(system.movers, [&](const Mover& mover) { return mover.kind == kind && mover.index == node; }) &&
+        std::ranges::none_of(system.members, in_cloud))
+      continue;
     for (const auto& mover : system.movers)
       (mover.kind == Mover::Kind::body ? company.bodies : company.nodes).push_back(mover.index);
+    for (const auto& member : system.members)
+      if (member.cloud) member.cloud->for_each_node([&](std::int32_t other) { company.nodes.push_back(other); });
   }
   return company;
 }

@@ -13,14 +13,6 @@ namespace balocco {
 
 namespace {
 
-double along(const Vector6& six, const Point& direction) {
-  return six[0] * direction[0] + six[1] * direction[1] + six[2] * direction[2];
-}
-
-void add_along(Vector6& six, double factor, const Point& direction) {
-  for (int c = 0; c < 3; ++c) six[c] += factor * direction[c];
-}
-
 /// Greatest turn of the line from the first node to another, relative stretch included.
 double turn_of_lines(std::span<const NodePlace> before, std::span<const NodePlace> after, double shortest) {
   double square = 0.0;
@@ -32,6 +24,16 @@ double turn_of_lines(std::span<const NodePlace> before, std::span<const NodePlac
   return std::sqrt(square);
 }
 
+/// Of all components together, whose squares must not vanish.
+double relative_change(const Matrix3<double>& before, const Matrix3<double>& after) {
+  double size = 0.0, change = 0.0;
+  for (std::size_t i = 0; i < 9; ++i) {
+    size += before.component[i] * before.component[i];
+    change += (after.component[i] - before.component[i]) * (after.component[i] - before.component[i]);
+  }
+  return size > 0.0 ? std::sqrt(change / size) : 0.0;
+}
+
 constexpr int most_iterations = 8, most_passes = 16;
 /// Relative to the size of the model: what iterations must not leave.
 constexpr double largest_gap = 1e-3;
@@ -40,7 +42,12 @@ constexpr double largest_gap = 1e-3;
 
 void ExplicitLinkages::find_places(const Analysis& analysis, System& system) const {
   for (auto& member : system.members) {
-    analysis.find_places(member.constraint, member.places);
+    if (member.cloud) {
+      member.places.assign(1, analysis.place_of(member.coupling->nodes().front()));
+      member.cloud->find_places(analysis.current.position.data(), member.places.front().position);
+    } else {
+      analysis.find_places(member.constraint, member.places);
+    }
     for (auto& use : member.nodes)
       if (use.carried)
         use.arm = rotation_matrix(analysis.current.rigid_bodies[system.movers[use.translation].index]) * Vector3<double>{use.offset};
@@ -50,11 +57,15 @@ void ExplicitLinkages::find_places(const Analysis& analysis, System& system) con
 void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) const {
   for (auto& member : system.members) {
     const auto& constraint = *analysis.constraints[member.constraint];
-    gradient_.resize(static_cast<std::size_t>(constraint.rows() * constraint.columns()));
-    constraint.gradient(member.places, gradient_);
+    const auto width = 6 * member.nodes.size();
+    gradient_.resize(static_cast<std::size_t>(constraint.rows()) * width);
+    if (member.cloud)
+      member.coupling->reference_gradient(member.cloud->places(), member.places.front().rotation, gradient_);
+    else
+      constraint.gradient(member.places, gradient_);
     std::ranges::fill(member.gradient, Lanes{});
     for (int row = 0; row < static_cast<int>(member.rows.size()); ++row) {
-      const double* g = &gradient_[static_cast<std::size_t>(member.rows[row] * constraint.columns())];
+      const double* g = &gradient_[static_cast<std::size_t>(member.rows[row]) * width];
       for (const auto& use : member.nodes) {
         for (int c = 0; c < 3; ++c) member.gradient[use.column + c][row] += g[c];
         if (use.carried) {
@@ -103,6 +114,8 @@ void ExplicitLinkages::find_base(const Analysis& analysis, System& system, const
             direction);
     for (const auto* condition : mover.conditions) add_along(mover.base, condition->new_velocity, condition->direction);
   }
+  for (auto& member : system.members)
+    if (member.cloud) member.cloud->find_velocities(state.velocity.data(), forces.force, instant.average());
 }
 
 void ExplicitLinkages::find_node_velocity(System& system, Mover& mover, double average) const {
@@ -162,25 +175,44 @@ double ExplicitLinkages::System::rate(const Member& member, std::size_t row, Vec
   return sum;
 }
 
-double ExplicitLinkages::find_residual(const Analysis& analysis, System& system, double next, bool from_rest) const {
+Vector6 ExplicitLinkages::System::multipliers(const Member& member) const {
+  Vector6 multipliers{};
+  for (std::size_t i = 0; i < member.rows.size(); ++i) multipliers[member.components[member.rows[i]]] = solution[member.first_row + i];
+  return multipliers;
+}
+
+void ExplicitLinkages::find_gaps(const Analysis& analysis, System& system, const Member& member, double next) const {
   constexpr double apart = 1e-9;  // of nodes that are not in one place
+  const auto& constraint = *analysis.constraints[member.constraint];
+  places_.clear();
+  for (std::size_t i = 0; i < member.nodes.size(); ++i) places_.push_back(place_after(analysis, system, member, i, next));
+  gaps_.resize(static_cast<std::size_t>(constraint.rows()));
+  if (!member.cloud) {
+    constraint.gaps(places_, gaps_);
+    system.largest_turn = std::max(system.largest_turn, turn_of_lines(member.places, places_, apart * system.size));
+    return;
+  }
+  const auto before = member.cloud->places();
+  const auto after = member.cloud->places_after(next, system.average, member.places.front().rotation, system.multipliers(member));
+  member.coupling->gaps_of(after, places_.front(), gaps_);
+  system.largest_turn = std::max(system.largest_turn, relative_change(before.spread, after.spread));
+}
+
+double ExplicitLinkages::find_residual(const Analysis& analysis, System& system, double next, bool from_rest) const {
   double largest = 0.0;
   for (const auto& member : system.members) {
-    const auto& constraint = *analysis.constraints[member.constraint];
-    if (next > 0.0) {
-      places_.clear();
-      for (std::size_t i = 0; i < member.nodes.size(); ++i) places_.push_back(place_after(analysis, system, member, i, next));
-      gaps_.resize(static_cast<std::size_t>(constraint.rows()));
-      constraint.gaps(places_, gaps_);
-      system.largest_turn = std::max(system.largest_turn, turn_of_lines(member.places, places_, apart * system.size));
-    }
+    if (next > 0.0) find_gaps(analysis, system, member, next);
+    const auto rates = next == 0.0 && member.cloud
+                           ? member.cloud->rates(system.average, member.places.front().rotation, system.multipliers(member))
+                           : Vector6{};
     for (std::size_t i = 0; i < member.rows.size(); ++i) {
       double& rate = system.residual[member.first_row + i];
       rate = 0.0;
       if (!system.holds[member.first_row + i]) continue;
       const auto* const law = member.is_guide ? &guides_.of(analysis.first_constraint_row[member.constraint] + member.rows[i]) : nullptr;
       if (next == 0.0) {
-        rate = system.rate(member, i, &Mover::velocity) - (law != nullptr && law->sticks() && !from_rest ? law->rate : 0.0);
+        if (member.cloud) rate = rates[member.components[member.rows[i]]];
+        rate += system.rate(member, i, &Mover::velocity) - (law != nullptr && law->sticks() && !from_rest ? law->rate : 0.0);
         continue;
       }
       double gap = gaps_[member.rows[i]];
@@ -240,6 +272,7 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
       find_responses(analysis, system);
       factorize(analysis, system, instant.average());
     }
+    system.average = instant.average();
     find_base(analysis, system, instant, forces);
     double gap = solve(analysis, system, instant);
     for (int pass = 0; pass < most_passes && settle_guides(analysis, system, instant.next); ++pass) {
@@ -253,90 +286,11 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
         analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]] = -system.solution[member.first_row + i];
     for (const auto& mover : system.movers)
       if (mover.kind == Mover::Kind::body) bodies_.add_force(static_cast<std::size_t>(mover.index), mover.constraint_force);
-    system.average = instant.average();
+    for (auto& member : system.members)
+      if (member.cloud)
+        member.cloud->find_changes(forces.force, system.average, member.places.front().rotation, system.multipliers(member));
   }
   clusters_.find_motion(analysis, instant, forces);
-}
-
-void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
-  auto& state = analysis.current;
-  guides_.begin_increment(analysis);
-  guides_.refuse_jumps(analysis);
-  guides_.aim(analysis, {state.step_time, state.total_time, 0.0, 0.0});
-  guides_.guess(analysis);
-  for (auto& system : systems_) {
-    find_places(analysis, system);
-    find_gradient(analysis, system);
-    find_responses(analysis, system);
-    take_guides(analysis, system);
-    for (const auto& member : system.members)  // friction brakes in time
-      for (std::size_t i = 0; i < member.rows.size() && member.is_guide; ++i) {
-        const auto& law = guides_.of(analysis.first_constraint_row[member.constraint] + member.rows[i]);
-        if (law.sticks() && law.friction != GuideLaw::unbounded) system.holds[member.first_row + i] = false;
-      }
-    factorize(analysis, system, 1.0);
-    std::ranges::fill(system.solution, 0.0);
-    std::ranges::fill(system.residual, 0.0);
-    for (auto& mover : system.movers) {
-      const std::size_t at = 4 * static_cast<std::size_t>(mover.index);
-      mover.velocity = {};
-      if (mover.kind == Mover::Kind::body)
-        mover.velocity = bodies_.velocity(analysis, static_cast<std::size_t>(mover.index));
-      else
-        std::copy_n(&(mover.kind == Mover::Kind::translation ? state.velocity : state.angular_velocity)[at], 3, mover.velocity.component.begin());
-      if (mover.first_unknown >= 0)
-        for (const auto& direction : mover.directions) add_along(mover.velocity, -along(mover.velocity, direction), direction);
-      mover.load = {};
-      mover.constraint_force = {};
-    }
-    find_residual(analysis, system, 0.0);
-    correct(system);
-    find_constraint_forces(system);
-    for (auto& mover : system.movers) {
-      Vector6 change = mover.response * mover.constraint_force;
-      for (std::size_t k = 0; mover.first_unknown >= 0 && k < mover.directions.size(); ++k)
-        add_along(change, system.solution[mover.first_unknown + k], mover.directions[k]);
-      mover.velocity += change;
-      if (mover.kind == Mover::Kind::body) bodies_.set_velocity(analysis, static_cast<std::size_t>(mover.index), mover.velocity);
-    }
-    system.factorized_for = 0.0;
-  }
-  clusters_.make_velocities_consistent(analysis);
-  set_velocities(analysis);
-}
-
-void ExplicitLinkages::add_resting_forces(const Analysis& analysis, const NodalForces& forces) {
-  for (auto& system : systems_) {
-    find_places(analysis, system);
-    find_gradient(analysis, system);
-    find_responses(analysis, system);
-    std::ranges::fill(system.solution, 0.0);
-    take_guides(analysis, system);
-    factorize(analysis, system, 1.0);
-    for (auto& mover : system.movers) {
-      const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(mover.index);
-      mover.load = {};
-      mover.constraint_force = {};
-      if (mover.kind == Mover::Kind::body)
-        mover.load = bodies_.force(static_cast<std::size_t>(mover.index));
-      else
-        std::copy_n((mover.kind == Mover::Kind::translation ? forces.force : forces.moment) + at, 3, mover.load.component.begin());
-      mover.velocity = mover.response * mover.load;  // accelerations, of nodes at rest
-    }
-    find_residual(analysis, system, 0.0, true);
-    correct(system);
-    find_constraint_forces(system);
-    for (const auto& mover : system.movers) {
-      if (mover.kind == Mover::Kind::body) {
-        bodies_.add_force(static_cast<std::size_t>(mover.index), mover.constraint_force);
-        continue;
-      }
-      double* const sum = (mover.kind == Mover::Kind::translation ? forces.force : forces.moment) + 4 * static_cast<std::ptrdiff_t>(mover.index);
-      for (int c = 0; c < 3; ++c) sum[c] += mover.constraint_force[c];
-    }
-    system.factorized_for = 0.0;
-  }
-  clusters_.add_resting_forces(analysis, forces);
 }
 
 void ExplicitLinkages::add_to_reactions(NodalConstraints& translations, NodalConstraints& rotations) const {
@@ -355,6 +309,9 @@ void ExplicitLinkages::set_velocities(Analysis& analysis) const {
       auto& velocity = mover.kind == Mover::Kind::translation ? analysis.current.velocity : analysis.current.angular_velocity;
       std::copy_n(mover.velocity.component.begin(), 3, &velocity[4 * static_cast<std::size_t>(mover.index)]);
     }
+  for (const auto& system : systems_)
+    for (const auto& member : system.members)
+      if (member.cloud) member.cloud->add_changes(analysis.current.velocity.data());
   clusters_.set_velocities(analysis);
 }
 
@@ -373,6 +330,9 @@ void ExplicitLinkages::add_to_output(Analysis& analysis) const {
       for (int c = 0; c < 3; ++c)
         acceleration[4 * static_cast<std::size_t>(mover.index) + c] = (mover.velocity[c] - mover.old_velocity[c]) / system.average;
     }
+  for (const auto& system : systems_)
+    for (const auto& member : system.members)
+      if (member.cloud) member.cloud->set_accelerations(system.average, analysis.acceleration.data());
   clusters_.add_to_output(analysis);
 }
 

@@ -3,10 +3,13 @@
 // and rigid bodies): no penalty, no drift, no bound on the increment.
 #pragma once
 
+#include <map>
+#include <optional>
 #include <vector>
 
 #include "constraints/linkages.hpp"
 #include "explicit_bodies.hpp"
+#include "explicit_cloud.hpp"
 #include "explicit_gyroscopic.hpp"
 #include "explicit_motion.hpp"
 #include "explicit_rigid_clusters.hpp"
@@ -103,7 +106,10 @@ class ExplicitLinkages {
   struct Member {
     std::int32_t constraint = -1;
     bool is_guide = false;
-    std::vector<NodeUse> nodes;
+    const DistributingConstraint* coupling = nullptr;  // whose cloud stands aside:
+    std::optional<ExplicitCloud> cloud;
+    std::vector<int> components;                       // of the coupling's rows
+    std::vector<NodeUse> nodes;                        // all, or the reference node alone
     std::vector<int> rows;  // of the constraint that are solved for
     int first_row = 0;
     std::vector<std::int32_t> movers;
@@ -124,7 +130,7 @@ class ExplicitLinkages {
     bool is_linear = true;       // the gradient is the same everywhere
     bool has_guides = false;
     double size = 0.0;           // diagonal of the box around the model, which its positions are as exact as
-    double average = 0.0;        // increment of the last motion
+    double average = 0.0;        // increment over which forces act
     BlockSolver blocks;          // a block a member, and one of the hub
     bool pivots = false;         // massless directions move, or blocks fail: one of the next two is used
     PivotingSolver pivoting_factors;
@@ -143,15 +149,20 @@ class ExplicitLinkages {
     bool is_definite() const { return unknowns == rows; }
     /// Of a row's gap, with the velocities of the movers before or after the instant.
     double rate(const Member& member, std::size_t row, Vector6 Mover::*velocity) const;
+    /// Of a member with a cloud, by components.
+    Vector6 multipliers(const Member& member) const;
   };
 
   void add_system(Analysis& analysis, const Linkage& linkage);
+  using Uses = std::map<std::int32_t, int>;  // in how many constraints of a linkage a node is
+  std::optional<ExplicitCloud> cloud_of(const Analysis& analysis, const DistributingConstraint* coupling, const Uses& uses) const;
   std::int32_t mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index);
   NodeUse use_of(const Analysis& analysis, System& system, std::int32_t row, bool turns);
   void find_freedoms(const Analysis& analysis, Mover& mover) const;
   void take_inertia(Mover& mover) const;
   void list_columns(System& system) const;
   void find_implied_rows(Analysis& analysis, System& system) const;
+  static void add_cloud(const System& system, const Member& member, std::size_t row, SparseRow& columns);
   void drop_implied_rows(const Analysis& analysis, System& system) const;
   void number(System& system) const;
   void find_hub(System& system) const;
@@ -164,6 +175,7 @@ class ExplicitLinkages {
   void find_answers(System& system, double average) const;
   void find_responses(const Analysis& analysis, System& system) const;
   void find_matrix(System& system, double average) const;
+  static void add_cloud(System& system, const Member& member, double average);
   /// Rows of guides that do not hold, and their columns, become those of the identity.
   static void let_go(System& system, const Member& member, const Shared& shared);
   void find_hub_blocks(System& system, double average) const;
@@ -190,6 +202,8 @@ class ExplicitLinkages {
   void find_node_velocity(System& system, Mover& mover, double average) const;
   /// Gaps at the end of the next increment, over it (velocities, where there is none; or accelerations from rest). @return the largest gap.
   double find_residual(const Analysis& analysis, System& system, double next, bool from_rest = false) const;
+  /// Gaps of a member at the end of an increment; sees to the largest turn.
+  void find_gaps(const Analysis& analysis, System& system, const Member& member, double next) const;
   NodePlace place_after(const Analysis& analysis, const System& system, const Member& member, std::size_t node, double next) const;
 
   const Step& step_;

@@ -53,42 +53,87 @@ Vector3<double> DistributingConstraint::mean(std::span<const NodePlace> places) 
   return center;
 }
 
+CloudMoments DistributingConstraint::moments(std::span<const NodePlace> places) const {
+  CloudMoments sums{.center = mean(places), .spread = {}};
+  for (std::size_t i = 0; i < weight_.size(); ++i) {
+    const auto to = places[i + 1].position - places[0].position;
+    for (int j = 0; j < 3; ++j)
+      for (int k = 0; k < 3; ++k) sums.spread(j, k) += weight_[i] * arm_[i][j] * to[k];
+  }
+  return sums;
+}
+
+std::vector<int> DistributingConstraint::components() const {
+  std::vector<int> components;
+  for (int c = 0; c < 6; ++c)
+    if (freedoms_[c]) components.push_back(c);
+  return components;
+}
+
+void DistributingConstraint::gaps_of(const CloudMoments& moments, const NodePlace& reference, std::span<double> g) const {
+  const auto apart = reference.position - moments.center - reference.rotation * offset_;
+  const auto turned = reference.rotation * moments.spread;  // sum w (R A) x^T
+  const Vector3<double> loose = lever_ * (loose_ * reference.turn);
+  std::size_t row = 0;
+  for (int c = 0; c < 6; ++c) {
+    if (!freedoms_[c]) continue;
+    const int j = c % 3, k = (j + 1) % 3, l = (j + 2) % 3;
+    g[row++] = c < 3 ? apart[j] : loose[j] + (turned(k, l) - turned(l, k)) / lever_;
+  }
+}
+
 void DistributingConstraint::gaps(std::span<const NodePlace> places, std::span<double> g) const {
+  if (knows_moments_alone()) return gaps_of(moments(places), places[0], g);
   const auto center = mean(places);
   const auto& rotation = places[0].rotation;
   const auto apart = places[0].position - center - rotation * offset_;
-  Vector3<double> moment = lever_ * (loose_ * places[0].turn);
-  for (std::size_t i = 0; i < weight_.size(); ++i)
-    moment = moment + (weight_[i] / lever_) * cross(rotation * arm_[i], places[i + 1].position - center);
-  for (int axis = 0; axis < 3 && !own_arm_[axis].empty(); ++axis) {
-    moment[axis] = 0.0;
+  Vector3<double> moment{};
+  for (int axis = 0; axis < 3; ++axis)
     for (std::size_t i = 0; i < weight_.size(); ++i)
       moment[axis] += (weight_[i] / lever_) * dot(rotation * own_arm_[axis][i], places[i + 1].position - center);
-  }
   std::size_t row = 0;
   for (int c = 0; c < 6; ++c)
     if (freedoms_[c]) g[row++] = c < 3 ? apart[c] : moment[c - 3];
 }
 
-void DistributingConstraint::gradient(std::span<const NodePlace> places, std::span<double> dg) const {
-  const auto center = mean(places);
-  const auto& rotation = places[0].rotation;
+void DistributingConstraint::reference_gradient(const CloudMoments& moments, const Matrix3<double>& rotation, std::span<double> dg) const {
   const auto offset = rotation * offset_;
+  const auto turned = rotation * moments.spread;
+  const double trace = turned(0, 0) + turned(1, 1) + turned(2, 2);
   std::ranges::fill(dg, 0.0);
-  const auto width = static_cast<std::size_t>(columns());
   std::size_t row = 0;
   for (int c = 0; c < 6; ++c) {
     if (!freedoms_[c]) continue;
-    double* const line = &dg[width * row++];
+    double* const line = &dg[6 * row++];
     const int j = c % 3, k = (j + 1) % 3, l = (j + 2) % 3;
     if (c < 3) {
       line[j] = 1.0;
       line[3 + k] = -offset[l];  // -(spin x offset)
       line[3 + l] = offset[k];
-      for (std::size_t i = 0; i < weight_.size(); ++i) line[6 * (i + 1) + j] = -weight_[i];
       continue;
     }
-    if (!own_arm_[j].empty()) {
+    // (spin x arm) x to = arm (spin . to) - spin (arm . to)
+    for (int m = 0; m < 3; ++m) line[3 + m] = lever_ * loose_(j, m) + (turned(j, m) - (j == m ? trace : 0.0)) / lever_;
+  }
+}
+
+void DistributingConstraint::gradient(std::span<const NodePlace> places, std::span<double> dg) const {
+  const auto center = mean(places);
+  const auto& rotation = places[0].rotation;
+  std::ranges::fill(dg, 0.0);
+  const auto width = static_cast<std::size_t>(columns());
+  std::array<double, 36> of_reference{};
+  reference_gradient(knows_moments_alone() ? moments(places) : CloudMoments{}, rotation, std::span(of_reference).first(6 * static_cast<std::size_t>(rows_)));
+  std::size_t row = 0;
+  for (int c = 0; c < 6; ++c) {
+    if (!freedoms_[c]) continue;
+    double* const line = &dg[width * row];
+    std::copy_n(&of_reference[6 * row++], 6, line);
+    const int j = c % 3, k = (j + 1) % 3, l = (j + 2) % 3;
+    if (c < 3) {
+      for (std::size_t i = 0; i < weight_.size(); ++i) line[6 * (i + 1) + j] = -weight_[i];
+    } else if (!own_arm_[j].empty()) {
+      std::fill_n(line, 6, 0.0);
       for (std::size_t i = 0; i < weight_.size(); ++i) {
         const auto arm = (weight_[i] / lever_) * (rotation * own_arm_[j][i]), by_spin = cross(arm, places[i + 1].position - center);
         for (int m = 0; m < 3; ++m) {
@@ -96,16 +141,12 @@ void DistributingConstraint::gradient(std::span<const NodePlace> places, std::sp
           line[6 * (i + 1) + m] = arm[m];
         }
       }
-      continue;
-    }
-    for (int m = 0; m < 3; ++m) line[3 + m] = lever_ * loose_(j, m);
-    for (std::size_t i = 0; i < weight_.size(); ++i) {
-      const auto arm = (weight_[i] / lever_) * (rotation * arm_[i]), to = places[i + 1].position - center;
-      // (spin x arm) x to = arm (spin . to) - spin (arm . to)
-      for (int m = 0; m < 3; ++m) line[3 + m] += arm[j] * to[m];
-      line[3 + j] -= dot(arm, to);
-      line[6 * (i + 1) + l] = arm[k];
-      line[6 * (i + 1) + k] = -arm[l];
+    } else {
+      for (std::size_t i = 0; i < weight_.size(); ++i) {
+        const auto arm = (weight_[i] / lever_) * (rotation * arm_[i]);
+        line[6 * (i + 1) + l] = arm[k];
+        line[6 * (i + 1) + k] = -arm[l];
+      }
     }
   }
 }

@@ -7,6 +7,12 @@
 
 namespace balocco {
 
+/// All that the gaps of a coupling know of the places of its cloud, or their rates of its velocities.
+struct CloudMoments {
+  Vector3<double> center{};  // sum w x
+  Matrix3<double> spread{};  // sum w A (x - any origin)^T: the weighted arms A at the start have no sum
+};
+
 /// Its first node is the reference node. About the line on which all nodes lie it does not turn: nothing else would hold it.
 class DistributingConstraint : public Constraint {
  public:
@@ -17,7 +23,19 @@ class DistributingConstraint : public Constraint {
   void gradient(std::span<const NodePlace> places, std::span<double> dg) const override;
   void add_curvature(std::span<const NodePlace> places, std::span<const double> multipliers, std::span<double> pairs) const override;
 
+  /// False with axes of its own.
+  bool knows_moments_alone() const { return own_arm_[0].empty() && own_arm_[1].empty() && own_arm_[2].empty(); }
+  /// gaps() and the six columns of the reference node in gradient() (row-major), where it knows moments alone.
+  void gaps_of(const CloudMoments& moments, const NodePlace& reference, std::span<double> g) const;
+  void reference_gradient(const CloudMoments& moments, const Matrix3<double>& rotation, std::span<double> dg) const;
+  /// What a row holds: 0-2 the mean's place, 3-5 the moment over lever().
+  std::vector<int> components() const;
+  const std::vector<double>& weights() const { return weight_; }
+  const std::vector<Vector3<double>>& arms() const { return arm_; }
+  double lever() const { return lever_; }
+
  private:
+  CloudMoments moments(std::span<const NodePlace> places) const;
   void find_loose_directions();
   Vector3<double> mean(std::span<const NodePlace> places) const;
 
