@@ -7,6 +7,7 @@
 
 #include "deck/writer.hpp"
 #include "elements/element_type.hpp"
+#include "materials/elastic_by_temperature.hpp"
 #include "materials/material_option.hpp"
 
 namespace balocco {
@@ -230,7 +231,12 @@ void Writer::materials() {
     const char* separator = law->variant.empty() ? "" : law->keyword == "ELASTIC" ? ", TYPE=" : ", ";
     line("*{}{}{}{}{}", law->keyword, separator, law->variant, law->order > 0 ? fmt::format(", N={}", law->order) : "",
          material.instantaneous ? ", MODULI=INSTANTANEOUS" : "");
-    values(material.parameters);
+    if (ElasticTable::is_in(material)) {
+      for (std::size_t i = 0; i < material.parameters.size(); i += ElasticTable::columns)
+        values(std::span(material.parameters).subspan(i, ElasticTable::columns));
+    } else {
+      values(material.parameters);
+    }
     for (const auto& option : material.options) material_option(option);
     if (!material.expansion) continue;
     line("*EXPANSION, ZERO={}", material.expansion->reference);

@@ -238,6 +238,7 @@ void Analysis::leave_linear_geometry(const Step& step) {
 
 void Analysis::start_step(const Step& step) {
   kinetic_energy.reset();
+  if (current.step == 0 && !model.restart_read) ThermalStrains(*this).start(*this);
   if (current.linear && !stays_linear(step)) leave_linear_geometry(step);
   apply_attachments(step);
   apply_interactions();

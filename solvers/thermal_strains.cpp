@@ -7,6 +7,7 @@
 
 #include "elements/element_type.hpp"
 #include "elements/initial_stress_rows.hpp"
+#include "materials/elastic_by_temperature.hpp"
 #include "model/diagnostics.hpp"
 #include "step_driver.hpp"
 
@@ -63,16 +64,18 @@ void find_nodal_temperatures(const Analysis& analysis, const Step& step, double 
 
 ThermalStrains::ThermalStrains(const Analysis& analysis) : temperature_(static_cast<std::size_t>(analysis.domain.size())) {
   const Model& model = analysis.model;
-  // Without temperatures there are none but those that came with another job's state.
-  acts_ = std::ranges::any_of(model.materials, [](const Material& material) { return material.expansion.has_value(); }) &&
+  // Without temperatures there are no strains but those that came with another job's state.
+  acts_ = std::ranges::any_of(model.materials, follows_temperature) &&
           std::ranges::any_of(model.steps, [](const Step& step) { return !step.temperatures.empty(); });
   for (std::size_t index = 0; index < analysis.element_groups.size(); ++index) {
     const auto& group = *analysis.element_groups[index];
     Group heated{.index = index, .rows = thermal_strain_rows(group)};
-    if (heated.rows.empty()) continue;
-    heated.expansion = &*model.materials[model.sections[group.section()].material].expansion;
+    for (int point = 0; point < group.integration_points(); ++point)
+      if (const int row = group.law_field_row(ElasticByTemperature::changes_field, point); row >= 0) heated.of_constants.push_back(row);
+    if (heated.rows.empty() && heated.of_constants.empty()) continue;
+    heated.material = &model.materials[model.sections[group.section()].material];
     const ElementType& type = *model.elements[group.table()].type;
-    for (int point = 0; point < static_cast<int>(heated.rows.size()); ++point) add_weights(type, point, heated.weights);
+    for (int point = 0; point < group.integration_points(); ++point) add_weights(type, point, heated.weights);
     groups_.push_back(std::move(heated));
   }
 }
@@ -89,31 +92,63 @@ void ThermalStrains::set(Analysis& analysis, const Step& step, double step_time,
   });
 }
 
+void ThermalStrains::start(Analysis& analysis) {
+  const auto& initial = analysis.model.initial_temperature;
+  for (std::size_t node = 0; node < temperature_.size(); ++node)
+    temperature_[node] = initial.empty() ? 0.0 : initial[analysis.domain.node_row[node]];
+  for (const auto& heated : groups_) {
+    if (heated.of_constants.empty()) continue;
+    write(analysis, heated);
+    // Nothing has worked to make them so.
+    auto& history = analysis.current.element_history[heated.index];
+    const auto lanes = static_cast<std::ptrdiff_t>(analysis.element_groups[heated.index]->padded_size());
+    for (const int row : heated.of_constants)
+      std::copy_n(history.begin() + row * lanes, 2 * lanes, history.begin() + (row + ElasticByTemperature::done_row) * lanes);
+  }
+}
+
+ThermalStrains::Temperatures ThermalStrains::at_point(const Analysis& analysis, const Group& heated, std::int32_t lane, std::size_t point) const {
+  const auto nodes = analysis.element_groups[heated.index]->nodes(lane);
+  const auto& initial = analysis.model.initial_temperature;
+  Temperatures found;
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const double weight = heated.weights[point * nodes.size() + i];
+    found.now += weight * temperature_[nodes[i]];
+    if (!initial.empty()) found.initial += weight * initial[analysis.domain.node_row[nodes[i]]];
+  }
+  return found;
+}
+
+void ThermalStrains::write_strain(Analysis& analysis, const Group& heated, std::int32_t lane, std::size_t point, Temperatures temperatures) const {
+  const auto& group = *analysis.element_groups[heated.index];
+  const bool linear = analysis.current.linear;
+  const double strain = heated.material->expansion->strain(temperatures.now, temperatures.initial);
+  if (!linear && !(strain > -1.0) && lane < group.size())
+    throw AnalysisError(fmt::format("element {} at the temperature {:.6g} has the thermal strain {:.6g}: nothing is left of it; correct "
+                                    "*EXPANSION or *TEMPERATURE",
+                                    analysis.model.elements[group.table()].id[group.row(lane)], temperatures.now, strain));
+  const auto lanes = static_cast<std::size_t>(group.padded_size()), row = static_cast<std::size_t>(heated.rows[point]);
+  auto& history = analysis.current.element_history[heated.index];
+  history[row * lanes + lane] = strain;
+  history[(row + 1) * lanes + lane] = linear ? 1.0 : 0.0;
+}
+
 void ThermalStrains::write(Analysis& analysis, const Group& heated) const {
   const auto& group = *analysis.element_groups[heated.index];
-  const auto& initial = analysis.model.initial_temperature;
   auto& history = analysis.current.element_history[heated.index];
-  const bool linear = analysis.current.linear;
   const auto lanes = static_cast<std::size_t>(group.padded_size());
-  for (std::int32_t lane = 0; lane < group.padded_size(); ++lane) {
-    const auto nodes = group.nodes(lane);
-    for (std::size_t point = 0; point < heated.rows.size(); ++point) {
-      double now = 0.0, before = 0.0;
-      for (std::size_t i = 0; i < nodes.size(); ++i) {
-        const double weight = heated.weights[point * nodes.size() + i];
-        now += weight * temperature_[nodes[i]];
-        if (!initial.empty()) before += weight * initial[analysis.domain.node_row[nodes[i]]];
-      }
-      const double strain = heated.expansion->strain(now, before);
-      if (!linear && !(strain > -1.0) && lane < group.size())
-        throw AnalysisError(fmt::format("element {} at the temperature {:.6g} has the thermal strain {:.6g}: nothing is left of it; correct "
-                                        "*EXPANSION or *TEMPERATURE",
-                                        analysis.model.elements[group.table()].id[group.row(lane)], now, strain));
-      const std::size_t row = static_cast<std::size_t>(heated.rows[point]);
-      history[row * lanes + lane] = strain;
-      history[(row + 1) * lanes + lane] = linear ? 1.0 : 0.0;
+  const auto points = std::max(heated.rows.size(), heated.of_constants.size());
+  for (std::int32_t lane = 0; lane < group.padded_size(); ++lane)
+    for (std::size_t point = 0; point < points; ++point) {
+      const auto temperatures = at_point(analysis, heated, lane, point);
+      if (!heated.rows.empty()) write_strain(analysis, heated, lane, point, temperatures);
+      if (heated.of_constants.empty()) continue;
+      const ElasticTable table(heated.material->parameters);
+      const auto now = table.at(temperatures.now), first = table.first();
+      const auto row = static_cast<std::size_t>(heated.of_constants[point]);
+      history[row * lanes + lane] = now.lambda - first.lambda;
+      history[(row + 1) * lanes + lane] = now.mu - first.mu;
     }
-  }
 }
 
 void ThermalStrains::leave_first_order(Analysis& analysis) const {

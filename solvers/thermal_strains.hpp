@@ -1,5 +1,5 @@
-// Thermal strains of elements: a function of the deck and the time, which the solvers write into the history of the laws that expand
-// (materials/expanding.hpp) before they compute forces.
+// What temperatures make of elements, a function of the deck and the time: thermal strains (materials/expanding.hpp) and elastic constants
+// (materials/elastic_by_temperature.hpp), which the solvers write into the history of the laws before they compute forces.
 #pragma once
 
 #include <span>
@@ -21,20 +21,29 @@ class ThermalStrains {
   /// Writes the thermal strains of that instant; of first order in a state that is (State::linear). Collective.
   /// @throws AnalysisError on all ranks where nothing would be left of an element.
   void set(Analysis& analysis, const Step& step, double step_time, double total_time);
+  /// Before the first step: constants of the initial temperatures, at which there are no thermal strains. Collective.
+  void start(Analysis& analysis);
   /// What steps of first order left counts as finite from now on.
   void leave_first_order(Analysis& analysis) const;
 
  private:
   struct Group {
     std::size_t index = 0;
-    const ThermalExpansion* expansion = nullptr;
-    std::vector<int> rows;        // of the history, a point
-    std::vector<double> weights;  // of the nodes, point after point
+    const Material* material = nullptr;
+    std::vector<int> rows;         // of thermal strains in the history, a point; none where the material does not expand
+    std::vector<int> of_constants;  // of elastic constants, likewise
+    std::vector<double> weights;   // of the nodes, point after point
+  };
+  /// Of a point, now and before the first step.
+  struct Temperatures {
+    double now = 0.0, initial = 0.0;
   };
 
   void write(Analysis& analysis, const Group& heated) const;
+  Temperatures at_point(const Analysis& analysis, const Group& heated, std::int32_t lane, std::size_t point) const;
+  void write_strain(Analysis& analysis, const Group& heated, std::int32_t lane, std::size_t point, Temperatures temperatures) const;
 
-  bool acts_ = false;  // a material expands, and a step has temperatures, in the model of all ranks
+  bool acts_ = false;  // a material follows its temperature, and a step has temperatures, in the model of all ranks
   std::vector<Group> groups_;
   std::vector<double> temperature_;  // a local node
 };

@@ -18,6 +18,7 @@
 #include "imported_mesh.hpp"
 #include "info.hpp"
 #include "job_observer.hpp"
+#include "materials/elastic_by_temperature.hpp"
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
 #include "nastran_reader.hpp"
@@ -85,7 +86,7 @@ PointStresses stresses_before_update(const std::string& path, const Analysis& up
 
 /// Another job's state does not say at which temperatures it was left: its thermal strains stay as they are.
 void refuse_temperatures(const Command& command, const Model& model) {
-  if (std::ranges::none_of(model.materials, [](const auto& material) { return material.expansion.has_value(); })) return;
+  if (std::ranges::none_of(model.materials, follows_temperature)) return;
   const auto is_asked = [](const std::vector<std::string>& variables) { return std::ranges::find(variables, "NT") != variables.end(); };
   const auto shows = [&](const FieldOutput& output) { return is_asked(output.node_variables); };
   const auto tells = [&](const HistoryOutput& output) {

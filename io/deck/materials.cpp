@@ -35,15 +35,20 @@ void no_tables(Builder& builder, const Block& block, Location location) {
   builder.error(block, location, "tables of temperature or field dependence are not supported; give one set of values");
 }
 
+/// Matter has one density, of which further lines may give the temperature alone.
 void read_density(Builder& builder, const Block& block) {
   if (block.lines.empty()) return builder.error(block, block.location, "the density is missing; add a data line");
-  Row row(builder, block, block.lines[0]);
-  const double density = row.real(0, "density");
-  if (row.has(1)) row.real(1, "temperature");  // one line holds for all temperatures
-  row.at_most(2);
-  if (block.lines.size() > 1) no_tables(builder, block, block.lines[1].location);
-  if (row.ok() && !(density > 0.0)) row.error(fmt::format("density {} must be positive; correct it", density));
-  current_material(builder).density = density;
+  double& density = current_material(builder).density;
+  for (std::size_t line = 0; line < block.lines.size(); ++line) {
+    Row row(builder, block, block.lines[line]);
+    const double here = row.real(0, "density");
+    if (line > 0 || row.has(1)) row.real(1, "temperature");
+    row.at_most(2);
+    if (!row.ok()) return;
+    if (!(here > 0.0)) return row.error(fmt::format("density {} must be positive; correct it", here));
+    if (line > 0 && here != density) return no_tables(builder, block, block.lines[line].location);
+    density = here;
+  }
 }
 
 void read_damping(Builder& builder, const Block& block) {
@@ -176,6 +181,35 @@ void warn_if_unstable(Builder& builder, const Block& block) {
   }
 }
 
+/// Further lines, each of another temperature: of isotropic *ELASTIC they become a table (materials/elastic_by_temperature.hpp), elsewhere
+/// they must repeat the first one.
+void read_temperatures(Builder& builder, const Block& block, const MaterialLaw& law, std::size_t line) {
+  auto& parameters = current_material(builder).parameters;
+  const auto constants = parameters;
+  const auto temperature_of = [&](std::size_t at) {
+    return Row(builder, block, block.lines[at]).real(static_cast<int>(constants.size()), "temperature");
+  };
+  const bool tabulates = law.name == "elastic";
+  std::vector<double> table = constants;
+  if (tabulates) table.push_back(temperature_of(0));
+  bool varies = false;
+  while (line < block.lines.size()) {
+    const std::size_t first = line;
+    const auto values = read_values(builder, block, line, law.parameters, one_for_all_temperatures);
+    if (!values) return;
+    varies |= *values != constants;
+    if (varies && !tabulates) return no_tables(builder, block, block.lines[first].location);
+    if (!tabulates) continue;
+    const double before = table.back();
+    table.insert(table.end(), values->begin(), values->end());
+    table.push_back(temperature_of(first));
+    if (!(table.back() > before))
+      return Row(builder, block, block.lines[first])
+          .error(fmt::format("temperature {} does not exceed that of the line before; list them rising", table.back()));
+  }
+  if (varies) parameters = table;
+}
+
 void read_law(Builder& builder, const Block& block) {
   const MaterialLaw* law = chosen_law(builder, block);
   if (law == nullptr) return;
@@ -191,7 +225,7 @@ void read_law(Builder& builder, const Block& block) {
   const auto values = read_values(builder, block, line, law->parameters, one_for_all_temperatures);
   if (!values) return;
   material.parameters = *values;
-  if (line < block.lines.size()) no_tables(builder, block, block.lines[line].location);
+  if (line < block.lines.size()) read_temperatures(builder, block, *law, line);
   warn_if_incompressible(builder, block, *law);
   if (block.keyword == "HYPERELASTIC") warn_if_unstable(builder, block);
 }

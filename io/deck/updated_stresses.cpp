@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include "elements/element_type.hpp"
+#include "materials/elastic_by_temperature.hpp"
 
 namespace balocco::deck {
 
@@ -31,6 +32,8 @@ std::string reason_against(const Model& model, const ElementType& type, const Se
     return fmt::format("the law of its material {} is not *ELASTIC of an isotropic solid: the stress is that of the whole deformation "
                        "since it was free of stress, which UPDATE=YES would forget",
                        material.name);
+  if (ElasticTable::is_in(material))
+    return fmt::format("the constants of its material {} follow the temperature, which the imported state does not tell", material.name);
   if (!material.options.empty())
     return fmt::format("its material {} yields or relaxes, for which a stress in the reference configuration does not count",
                        material.name);

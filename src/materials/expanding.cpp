@@ -131,7 +131,7 @@ class Expanding final : public Law<kind> {
     const double theta = state[linear] != 0.0 ? 1.0 : 1.0 + state[thermal];
     EnergyDensity energy = law_->energy_density(mechanical_of(strain, theta), history.first(own_));
     const double volume = theta * theta * theta;
-    energy = {volume * energy.recoverable, volume * energy.plastic, volume * energy.viscous, state[work]};
+    energy = {volume * energy.recoverable, volume * energy.plastic, volume * energy.viscous, volume * energy.heat + state[work]};
     if (state[linear] == 0.0) return energy;
     const Heated heated = heated_at_rest(history.first(own_));
     energy.recoverable -= state[thermal] * work_of(strain, heated.modulus);

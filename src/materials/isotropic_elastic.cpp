@@ -1,5 +1,6 @@
 #include "materials/isotropic_elastic.hpp"
 
+#include "materials/elastic_by_temperature.hpp"
 #include "materials/j2_plasticity.hpp"
 #include "materials/plane_elastic.hpp"
 #include "materials/relaxing_rubber.hpp"
@@ -19,6 +20,10 @@ PlaneElastic plane_form(std::span<const double> p) {
 template <PointKind kind>
 std::unique_ptr<Law<kind>> form(const Material& m) {
   const double young = m.parameters[0], poisson = m.parameters[1];
+  if (ElasticTable::is_in(m)) {
+    if (!m.options.empty()) throw InputError("*ELASTIC by temperature goes with no other option of the material; give one line, or take the option out");
+    if constexpr (kind == PointKind::solid) return make_solid_law(ElasticByTemperature(ElasticTable(m.parameters)));
+  }
   if (J2Plasticity::wanted(m)) {
     if (relaxes(m)) throw InputError("*VISCOELASTIC: it does not go together with *PLASTIC; remove one of them");
     return make_metal<kind>(m);

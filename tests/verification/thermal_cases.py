@@ -4,6 +4,7 @@ import sys
 
 import numpy as np
 
+from frequency_cases import modes as modes_of
 from static_model import Deck, Runner, brick, close
 
 YOUNG, POISSON, ALPHA, HEAT = 2.0e5, 0.3, 1.2e-5, 200.0
@@ -174,6 +175,41 @@ def membrane(runner):
         close(results.element("M3D4", "S")[0][axis], -YOUNG * ALPHA * HEAT / (1.0 - POISSON), 1e-8, "S%d%d" % (axis + 1, axis + 1))
 
 
+def constants(runner):
+    """Young's modulus by the temperature: stress of a held bar, modes about the initial temperature, and the energy that softening takes
+    from it, in linear, in large and in explicit steps."""
+    steel = MATERIAL.replace("%g, %g\n*EXPANSION\n%g" % (YOUNG, POISSON, ALPHA), "2e5, 0.3, 0.\n1e5, 0.3, 100.")
+    steel += "*INITIAL CONDITIONS, TYPE=TEMPERATURE\nEVERY, 50.\n*AMPLITUDE, NAME=SLOW, DEFINITION=SMOOTH STEP\n0., 0., 2e-4, 1.\n"
+    modes = "*STEP\n*FREQUENCY\n2\n*BOUNDARY\nX0, 1, 3\n*END STEP"
+    deck = block("C3D8")
+    deck.add(steel + modes)
+    deck.add(step(LINEAR, ROLLERS + "\nX1, 1, 1, 0.003", ""))
+    deck.add(step(LINEAR, "", "*TEMPERATURE\nEVERY, 75."))
+    warm = runner.run("linear", deck, 2)
+    for number, young in ((2, 1.5e5), (3, 1.25e5)):
+        close(warm.element("C3D8", "S", number)[0][0], 1e-3 * young, 1e-9, "stress of step %d" % number)
+    deck = block("C3D8")
+    deck.add(MATERIAL.replace("%g, %g\n*EXPANSION\n%g" % (YOUNG, POISSON, ALPHA), "1.5e5, 0.3") + modes)
+    same = runner.run("modes", deck)
+    for mode, other in zip(modes_of(warm, 1), modes_of(same, 1), strict=True):
+        close(mode.attrs["frequency"] / other.attrs["frequency"], 1.0, 1e-10, "frequency about the initial temperature")
+    deck = block("C3D8")
+    deck.add(steel)
+    deck.add(step(FINITE, ROLLERS + "\nX1, 1, 1, 0.09", ""))
+    deck.add(step(FINITE, "", "*TEMPERATURE\nEVERY, 150."))
+    deck.add(step("", "", "*TEMPERATURE, AMPLITUDE=SLOW\nEVERY, 75.", "*DYNAMIC, EXPLICIT\n, 2e-4").replace(
+        "FREQUENCY=1, PRECISION", "NUMBER INTERVAL=1, PRECISION").replace("HISTORY, FREQUENCY=1", "HISTORY, TIME INTERVAL=1e-5"))
+    runs = [runner.run("large", deck, ranks) for ranks in (1, 2)]
+    assert (runs[0].node("U", 3) == runs[1].node("U", 3)).all(), "bits depend on the number of ranks"
+    stress = [runs[0].element("C3D8", "S", number)[0][0] for number in (1, 2)]
+    close(stress[1] / stress[0], 1.0 / 1.5, 1e-9, "stress once soft")
+    energy = runs[0].file["step_2/history/energy"]
+    close(energy["ALLSE"][-1] / energy["ALLSE"][0], 1.0 / 1.5, 1e-9, "energy once soft")
+    close(np.ptp(energy["ETOTAL"][:]) / energy["ALLSE"][0], 0.0, 1e-9, "energy balance")
+    energy = runs[0].file["step_3/history/energy"]
+    close(np.ptp(energy["ETOTAL"][:]) / energy["ALLSE"][0], 0.0, 1e-4, "energy balance of explicit dynamics")
+
+
 def explicit(runner):
     """The bar between walls, heated smoothly over many periods: the static stress, the energy in balance, and bits that do not depend
     on the number of ranks."""
@@ -206,12 +242,15 @@ def refused(runner):
     refusal("ortho", lambda text: text.replace("*EXPANSION\n", "*EXPANSION, TYPE=ORTHO\n"), "TYPE")
     refusal("falling", lambda text: text.replace("*EXPANSION\n%g" % ALPHA, "*EXPANSION\n1e-5, 100.\n2e-5, 50."), "rising")
     refusal("file", lambda text: text, "FILE")
+    table = lambda text: text.replace("%g, %g" % (YOUNG, POISSON), "2e5, 0.3, 0.\n1e5, 0.3, 100.")
+    refusal("reduced", table, "other than C3D8R")
+    refusal("yielding", lambda text: table(text).replace("*DENSITY", "*PLASTIC\n300., 0.\n*DENSITY"), "no other option")
     deck = block()
     deck.add(MATERIAL)
     deck.add(step(LINEAR, ROLLERS, "*TEMPERATURE\nEVERY, 2."))
     deck.add("*STEP\n*BUCKLE\n1\n*CLOAD\n2, 1, -1.\n*END STEP")
     done, _ = runner.launch("buckle", deck, 1)
-    assert done.returncode == 2 and "does not count thermal strains" in done.stderr + done.stdout, done.stderr
+    assert done.returncode == 2 and "does not follow temperatures" in done.stderr + done.stdout, done.stderr
     deck = block()
     deck.add(MATERIAL)
     deck.add(step(FINITE, ROLLERS, "*TEMPERATURE\nX1, %g" % (-3.0 / ALPHA)))
@@ -220,7 +259,7 @@ def refused(runner):
         assert done.returncode == 3 and "nothing is left of it" in done.stderr + done.stdout, done.stderr
 
 
-CASES = {case.__name__: case for case in (free, oriented, perturbed, imported, clamped, table, membrane, explicit, refused)}
+CASES = {case.__name__: case for case in (free, oriented, perturbed, imported, clamped, table, constants, membrane, explicit, refused)}
 
 if __name__ == "__main__":
     name, program, folder = sys.argv[1:4]

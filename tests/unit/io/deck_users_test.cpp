@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "deck_support.hpp"
+#include "materials/elastic_by_temperature.hpp"
 
 namespace balocco {
 namespace {
@@ -91,6 +92,21 @@ TEST(UsersDecks, YieldStressesOfSeveralTemperaturesAreRefusedAsSuch) {
   const auto errors = errors_of(replaced(brick, "*DENSITY", "*PLASTIC\n300., 0., 20.\n400., 0.2, 20.\n200., 0., 300.\n*DENSITY") + static_step);
   EXPECT_NE(errors.find("tables of temperature"), std::string::npos) << errors;
   EXPECT_EQ(errors_of(replaced(brick, "*DENSITY", "*PLASTIC\n300., 0., 20.\n400., 0.2, 20.\n*DENSITY") + static_step), "");
+}
+
+TEST(UsersDecks, ElasticConstantsOfSeveralTemperatures) {
+  const auto full = replaced(brick, "C3D8R", "C3D8");
+  const auto material = [&](const std::string& from, const std::string& to) { return read(replaced(full, from, to) + static_step).model.materials[0]; };
+  const auto parameters = material("*ELASTIC\n210000., 0.3", "*ELASTIC\n2., 0.3, 20.\n1., 0.2, 300.").parameters;
+  EXPECT_EQ(parameters, (std::vector<double>{2.0, 0.3, 20.0, 1.0, 0.2, 300.0}));
+  EXPECT_EQ(ElasticTable(parameters).at(10.0).mu, IsotropicElastic::from_young(2.0, 0.3).mu);
+  EXPECT_DOUBLE_EQ(ElasticTable(parameters).at(160.0).lambda, IsotropicElastic::from_young(1.5, 0.25).lambda);
+  EXPECT_EQ(ElasticTable(parameters).at(400.0).lambda, IsotropicElastic::from_young(1.0, 0.2).lambda);
+  EXPECT_EQ(material("*ELASTIC\n210000., 0.3", "*ELASTIC\n2., 0.3, 20.\n2., 0.3, 300.").parameters.size(), 2u);
+  EXPECT_EQ(material("7.8E-9", "2., 20.\n2., 300.").density, 2.0);
+  EXPECT_NE(errors_of(replaced(brick, "7.8E-9", "2., 20.\n3., 300.") + static_step).find("tables of temperature"), std::string::npos);
+  const auto falling = errors_of(replaced(brick, "*ELASTIC\n210000., 0.3", "*ELASTIC\n2., 0.3, 20.\n1., 0.2, 10.") + static_step);
+  EXPECT_NE(falling.find("list them rising"), std::string::npos) << falling;
 }
 
 TEST(UsersDecks, WhatNeedsFlowsOfHeatIsLeftOutWithANote) {
