@@ -23,6 +23,8 @@ namespace {
 constexpr double touching = 1e-6;
 /// Up to which CalculiX's springs pull, of the edge of the area of a node.
 constexpr double default_clearance = 1e-3;
+/// Up to which a place is tied, of the faces' edge: the tolerance of Abaqus's *TIE.
+constexpr double tied_within = 0.05;
 
 std::vector<double> stiffness_per_area(const Model& model, const ContactPair& pair) {
   const SlaveNodes slave = slave_nodes(model, pair);
@@ -104,6 +106,7 @@ void MeshContact::set_interaction(const Interaction& interaction) {
   law_ = interaction.behavior;
   soft_ = law_.is_soft();
   curved_ = soft_ && law_.kind != PressureLaw::Kind::linear;
+  tied_ = std::isinf(law_.tension);
   tension_width_ = law_.kind == PressureLaw::Kind::linear && !of_faces_ ? std::numbers::pi * law_.tension / law_.slope : 0.0;
   spring_clearance_ = law_.spring_clearance;
   const double scale = interaction.penalty_scale / penalty_scale_;
@@ -171,6 +174,10 @@ std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& pla
     const double x = overclosure / tension_width_, share = 0.5 + std::atan(x) / std::numbers::pi;
     return NormalSpring{k * overclosure * share, -k * (share + x / (std::numbers::pi * (1.0 + x * x))), true};
   }
+  if (tied_) {
+    if (state.closed == 0.0 && std::abs(foot.distance) > tied_within * faces_.edge()) return std::nullopt;
+    return NormalSpring{k * overclosure, -k, true};
+  }
   if (curved_) {
     const auto found = law_.at(overclosure, straight_from(place, state));
     const double force = state.multiplier + place.area * found.pressure;
@@ -185,6 +192,7 @@ std::optional<MeshContact::NormalSpring> MeshContact::spring_at(const Place& pla
 double MeshContact::spring_energy(const Place& place, const ContactPoint& state, double gap) const {
   const double k = stiffness(place, state), e = tension_width_;
   if (e > 0.0) return k * (0.25 * gap * gap + (0.5 * (gap * gap + e * e) * std::atan(-gap / e) + 0.5 * e * gap) / std::numbers::pi);
+  if (tied_) return 0.5 * k * gap * gap;
   if (curved_) return parameters(place, state).energy_of_law(state.multiplier, -gap);
   // A multiplier holds without a stretch: nothing is stored where the gap is zero.
   const double force = std::max(0.0, state.multiplier - k * gap), held = std::max(0.0, state.multiplier);
@@ -262,11 +270,11 @@ MeshContact::Output MeshContact::output(std::int32_t index, const double* positi
   contact.pressure = spring->force;
   output.closed = true;
   output.normal = foot.normal;
-  if (has_anchor(state) && contact.pressure > 0.0) {
+  if (has_anchor(state) && holds_across(contact.pressure)) {
     auto scratch = state;
     auto stretch = output.at - anchor_of(position, state);
     stretch = stretch - dot(stretch, foot.normal) * foot.normal;
-    add_tangential_spring(law, stretch, scratch, contact);
+    add_across(law, stretch, scratch, contact);
     output.displacement = stretch + Vector3<double>{state.stiff_friction};
   }
   output.normal_force = contact.pressure * foot.normal;
@@ -282,7 +290,7 @@ MeshContact::Output MeshContact::output(std::int32_t index, const double* positi
 void MeshContact::take_forces(std::int32_t index, const double* position, const ContactPoint& state, std::span<double> holding) const {
   const auto& place = places_[index];
   const auto found = output(index, position, state);
-  if (!(found.pressure != 0.0)) return;
+  if (!found.closed) return;
   const auto force = found.normal_force + found.friction_force;
   const auto foot = faces_.nearest(position, found.at);
   const auto nodes = faces_.nodes(foot.face);

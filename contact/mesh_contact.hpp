@@ -6,7 +6,9 @@
 // (PRESSURE-OVERCLOSURE=LINEAR; the multiplier is zero then; of EXPONENTIAL and TABULAR see model/pressure_law.hpp), or in explicit
 // steps that of the layer of slave elements behind it (slave_surface.hpp), in implicit steps 20 times as much, with a multiplier that the
 // solver augments. Where the deck gives LINEAR a tension s, nodes have the law of CalculiX's node-to-face springs, pressure k d (1/2 + arctan(d / e) / pi) of the overclosure d with
-// e = pi s / k, which pulls with s at great clearance (CalculiX CrunchiX User's Manual, "Node-to-Face Penalty Contact"). Friction: a
+// e = pi s / k, which pulls with s at great clearance (CalculiX CrunchiX User's Manual, "Node-to-Face Penalty Contact"). An infinite tension
+// is PRESSURE-OVERCLOSURE=TIED: the places that lie on the master, to 5 % of the edge of its faces, have the pressure k d, which
+// pulls too, and stick. Friction: a
 // tangential spring from the anchor, a place of the master that moves with its material, cut at mu * t.
 #pragma once
 
@@ -135,7 +137,17 @@ class MeshContact {
   PenaltyParameters parameters(const Place& place, const ContactPoint& state) const;
   Vector3<double> at(const Place& place, const double* position) const;
   Vector3<double> anchor_of(const double* position, const ContactPoint& point) const;
-  bool has_anchor(const ContactPoint& point) const { return friction_ > 0.0 && point.anchor[0] >= 0.0; }
+  bool has_anchor(const ContactPoint& point) const { return (tied_ || friction_ > 0.0) && point.anchor[0] >= 0.0; }
+  /// Whether a place under a normal force rubs or is held.
+  bool holds_across(double normal_force) const { return tied_ || normal_force > 0.0; }
+  /// See add_tangential_spring(): Coulomb's limit does not cut what is tied.
+  template <class T>
+  double add_across(const PenaltyParameters& law, const Vector3<T>& stretch, ContactPoint& point, ContactForce<T>& force) const {
+    if (!tied_) return add_tangential_spring(law, stretch, point, force);
+    force.tangential_stiffness = law.tangential_spring();
+    force.friction = -T(law.tangential_spring()) * stretch;
+    return 1.0;
+  }
   /// Force of the normal spring and its derivative by the gap; an open place that touches has no force, but a derivative.
   struct NormalSpring {
     double force = 0.0, slope = 0.0;
@@ -172,6 +184,7 @@ class MeshContact {
   double shear_stress_limit_ = std::numeric_limits<double>::infinity();
   bool soft_ = false;           // the deck gives a law of pressure, which is not augmented then
   bool of_faces_ = false;
+  bool tied_ = false;
   bool curved_ = false;         // which is not a straight line:
   PressureLaw law_;
   double penalty_scale_ = 1.0;  // with which penalties were found

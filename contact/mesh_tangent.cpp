@@ -179,7 +179,7 @@ void MeshContact::linearize_on(std::int32_t index, const FacePlace& found, const
   contact.normal = contact.pressure * moving.normal;
 
   std::vector<double> anchor_weights;
-  if (spring.force > 0.0 && has_anchor(old)) {
+  if (holds_across(spring.force) && has_anchor(old)) {
     const auto face = static_cast<std::int32_t>(old.anchor[0]);
     const auto nodes = faces_.nodes(face);
     const auto shapes = face_shapes(nodes.size(), old.anchor[1], old.anchor[2]);
@@ -195,7 +195,7 @@ void MeshContact::linearize_on(std::int32_t index, const FacePlace& found, const
     }
     auto stretch = moving.place - anchor;
     stretch = stretch - dot(stretch, moving.normal) * moving.normal;
-    const double kept = add_tangential_spring(law, stretch, updated, contact);
+    const double kept = add_across(law, stretch, updated, contact);
     tangent.slip = contact.slip;
     if (kept < 1.0) {
       Vector3<double> where;

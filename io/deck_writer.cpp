@@ -286,7 +286,10 @@ void Writer::behavior(const Interaction& interaction) {
   switch (law.kind) {
     case PressureLaw::Kind::hard: break;
     case PressureLaw::Kind::linear:
-      line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}, {}, {}", law.slope, law.tension, law.spring_clearance);
+      if (std::isinf(law.tension))
+        line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n{}", law.slope);
+      else
+        line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=LINEAR\n{}, {}, {}", law.slope, law.tension, law.spring_clearance);
       break;
     case PressureLaw::Kind::exponential:
       line("*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=EXPONENTIAL\n{}, {}, {}", law.clearance, law.pressure, law.greatest_slope);

@@ -83,7 +83,7 @@ void adjust(Builder& builder, const Block& block, const Row& row, const std::arr
 void tell_what_has_no_effect(Builder& builder, const Block& block, const Interaction& interaction, bool mesh, bool of_faces) {
   if (interaction.stick_slope && !mesh)
     builder.warning(block, block.location, "*FRICTION: the second value, CalculiX's stick slope, counts with deformable masters only");
-  if (interaction.behavior.tension > 0.0 && of_faces)
+  if (interaction.behavior.tension > 0.0 && !std::isinf(interaction.behavior.tension) && of_faces)
     builder.warning(block, block.location, "*SURFACE BEHAVIOR: the tension counts with TYPE=NODE TO SURFACE only, as in CalculiX");
 }
 

@@ -150,6 +150,16 @@ PressureLaw read_linear_behavior(Builder& builder, const Block& block) {
   return law;
 }
 
+/// CalculiX's TIED: pressure per overclosure, which pulls as it presses; the stick slope of *FRICTION holds across.
+PressureLaw read_tied_behavior(Builder& builder, const Block& block) {
+  PressureLaw law{.kind = PressureLaw::Kind::linear, .tension = std::numeric_limits<double>::infinity()};
+  Row row(builder, block, block.lines[0]);
+  law.slope = row.real(0, "slope of pressure over overclosure");
+  row.at_most(1);
+  if (row.ok() && !(law.slope > 0.0)) row.error(fmt::format("slope {} must be positive; correct it", law.slope));
+  return law;
+}
+
 /// Abaqus's meaning of the two values. Where CalculiX has its law, of the same look, the pressure at the clearance c0 is a hundredth of p0.
 PressureLaw read_exponential_behavior(Builder& builder, const Block& block) {
   PressureLaw law{.kind = PressureLaw::Kind::exponential};
@@ -199,12 +209,13 @@ void read_hard_behavior(Builder& builder, const Block& block) {
 void read_surface_behavior(Builder& builder, const Block& block) {
   const auto kind = block.value("PRESSURE-OVERCLOSURE", "HARD");
   if (kind == "HARD") return read_hard_behavior(builder, block);
-  const bool table = kind == "TABULAR", linear = kind == "LINEAR";
+  const bool table = kind == "TABULAR", tied = kind == "TIED", linear = kind == "LINEAR" || tied;
   if (!has_law(builder, block, kind, table    ? "lines of pressure and overclosure"
                                      : linear ? "a line with the slope of pressure over overclosure"
                                               : "a line with the clearance c0 and the pressure p0"))
     return;
   const auto law = table    ? read_table_of_pressure(builder, block)
+                   : tied   ? read_tied_behavior(builder, block)
                    : linear ? read_linear_behavior(builder, block)
                             : read_exponential_behavior(builder, block);
   if (has_interaction(builder)) current_interaction(builder).behavior = law;
@@ -247,7 +258,7 @@ const RegisterKeyword surface_behavior{
     {"SURFACE BEHAVIOR",
      Phase::definitions,
      Place::anywhere,
-     {choice("PRESSURE-OVERCLOSURE", {"HARD", "LINEAR", "EXPONENTIAL", "TABULAR"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
+     {choice("PRESSURE-OVERCLOSURE", {"HARD", "LINEAR", "EXPONENTIAL", "TABULAR", "TIED"}), flag("PENALTY"), flag("AUGMENTED LAGRANGE")},
      read_surface_behavior,
      "SURFACE INTERACTION or CHANGE SURFACE BEHAVIOR"}};
 const RegisterKeyword change_friction{

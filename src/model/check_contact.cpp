@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <set>
+#include <variant>
 
 #include "elements/element_type.hpp"
 #include "elements/surface_nodes.hpp"
@@ -71,6 +73,26 @@ void check_sides(const Model& model, const ContactPair& pair, Errors& errors) {
 }
 
 /// In any step.
+bool is_ever_tied(const Model& model, const ContactPair& pair) {
+  const auto ties = [](const Interaction& interaction) { return std::isinf(interaction.behavior.tension); };
+  if (pair.interaction < 0) return false;
+  return ties(model.interactions[pair.interaction]) || std::ranges::any_of(model.steps, [&](const Step& step) {
+           return std::ranges::any_of(step.changed_interactions, [&](const ChangedInteraction& change) {
+             return change.interaction == pair.interaction && ties(change.properties);
+           });
+         });
+}
+
+/// Springs that stick wherever they are pulled: explicit steps have *TIE, which bounds no increment.
+void check_tied(const Model& model, const ContactPair& pair, Errors& errors) {
+  if (!is_ever_tied(model, pair)) return;
+  const bool is_explicit = std::ranges::any_of(model.steps, [](const Step& step) { return std::holds_alternative<ExplicitProcedure>(step.procedure); });
+  if (pair.of_faces && !is_rigid(model, model.surfaces[pair.master]) && !is_explicit) return;
+  errors.emplace_back(pair.location, "*CONTACT PAIR: PRESSURE-OVERCLOSURE=TIED is of pairs of TYPE=SURFACE TO SURFACE with deformable masters, in "
+                                     "jobs without explicit steps; use *TIE");
+}
+
+/// In any step.
 bool may_pull(const Model& model, const ContactPair& pair) {
   if (pair.interaction < 0) return false;
   if (model.interactions[pair.interaction].behavior.tension > 0.0) return true;
@@ -82,7 +104,7 @@ bool may_pull(const Model& model, const ContactPair& pair) {
 }
 
 void check_interaction(const Model& model, const ContactPair& pair, Errors& errors) {
-  if (may_pull(model, pair) && is_rigid(model, model.surfaces[pair.master]))
+  if (may_pull(model, pair) && !is_ever_tied(model, pair) && is_rigid(model, model.surfaces[pair.master]))
     errors.emplace_back(pair.location, fmt::format("*CONTACT PAIR: PRESSURE-OVERCLOSURE=LINEAR with a tension is of pairs with deformable masters, "
                                                    "and {} is rigid; leave the tension out",
                                                    model.surfaces[pair.master].name));
@@ -98,6 +120,7 @@ Errors check_contact(const Model& model) {
     check_self(model, pair, errors);
     check_sides(model, pair, errors);
     check_interaction(model, pair, errors);
+    check_tied(model, pair, errors);
   }
   return errors;
 }

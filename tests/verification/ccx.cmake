@@ -11,7 +11,7 @@ foreach(case truss fricloop beamnldye beamnldype)
 endforeach()
 foreach(deck achteld achtelg beam10p beam20p beam8f beamd3 beamdelay beamhf beamnld beamnlp beampo1 beampo3 beampo6 beamprot beamwrite
         beamnldyp beamdynamic2 dashpot5 dashpot1 beam8b coupling10 mass1 spring2 spring7 beam8p_mpc beamptied1 beamptied2 beamrb2 coupling2 spring3 beamnlmpc
-        beamp2rotate beamprb dyncube dyncubeexp cubes friction1 friction3 resstress1 spring5)
+        beamp2rotate beamprb dyncube dyncubeexp cubes friction1 friction3 resstress1 spring5 changesurfbeh)
   add_test(NAME ccx_suite_${deck}
            COMMAND /usr/bin/python3 ${CMAKE_CURRENT_SOURCE_DIR}/ccx_table.py $<TARGET_FILE:balocco> ${CMAKE_SOURCE_DIR}/../shared
                    ${CMAKE_CURRENT_BINARY_DIR}/ccx_suite_${deck} --check ${deck})

@@ -250,7 +250,35 @@ def behavior_changes(runner):
         assert stress[0] > 1.1 * stress[1]
 
 
-CASES = {f.__name__: f for f in (pressed, standing, released, bouncing, hard_blow, friction_comes_in, friction_comes_in_explicit, friction_restarted, behavior_changes)}
+def tied(runner):
+    """PRESSURE-OVERCLOSURE=TIED holds across and pulls, by the slopes of *FRICTION and of its own, as springs between the blocks whatever
+    the coefficient is, and LINEAR lets go. Where nothing computes such springs they are refused."""
+    law = behavior("TIED\n700.") + "\n*FRICTION\n1e-4, 300."
+    deck = blocks(2, 4)
+    deck.sets["EVERY"] = list(deck.nodes)
+    pair(deck, "SURFACE TO SURFACE", law)
+    shear, pull = 2e-6, 3e-6
+    static(deck, "*BOUNDARY\nEVERY, 1, 2\nBASE, 3, 3\nTOP, 3, 3, %g\n" % pull)
+    sheared = "*BOUNDARY, OP=NEW, FIXED\nEVERY, 3, 3\n*BOUNDARY, OP=NEW\nEVERY, 2, 2\nBASE, 1, 1\nTOP, 1, 1, %g\n" % shear
+    static(deck, sheared)
+    static(deck, "*CHANGE SURFACE BEHAVIOR, INTERACTION=TOUCH\n" + behavior("LINEAR\n700.") + "\n" + sheared)
+    results = runner.run_alike("tied", deck)
+    stress = results.element("C3D8", "S", 1)[:, 2]
+    close(np.abs(stress * (2.0 / YOUNG + 1.0 / 700.0) / pull - 1.0).max(), 0.0, 1e-5, "stress")
+    stress = results.element("C3D8", "S", 2)[:, 4]
+    close(np.abs(stress * (4.0 / YOUNG + 1.0 / 300.0) / shear - 1.0).max(), 0.0, 1e-5, "shear stress")
+    close(energy(results, "ETOTAL", 2)[-1] / energy(results, "ALLIE", 2)[-1], 0.0, 1e-5, "energy balance")
+    close(np.abs(history(results, "CFN", 3)[-1]).max() + np.abs(history(results, "CFT", 3)[-1]).max(), 0.0, 1e-12, "force once open")
+    for name, kind, last in (("nodes", "NODE TO SURFACE", ""), ("explicit", "SURFACE TO SURFACE", "*STEP\n*DYNAMIC, EXPLICIT\n, 1.\n*END STEP")):
+        deck = blocks(2, 4)
+        pair(deck, kind, law)
+        static(deck, "*BOUNDARY\nBASE, 1, 3\nTOP, 1, 3\n")
+        deck.add(last)
+        done, _ = runner.launch("refused_" + name, deck, 1)
+        assert done.returncode == 2 and "use *TIE" in done.stdout + done.stderr, done.stdout + done.stderr
+
+
+CASES = {f.__name__: f for f in (pressed, standing, released, bouncing, hard_blow, friction_comes_in, friction_comes_in_explicit, friction_restarted, behavior_changes, tied)}
 
 if __name__ == "__main__":
     CASES[sys.argv[1]](Runner(sys.argv[2], sys.argv[3]))
