@@ -117,9 +117,6 @@ void read_boundary_line(Builder& builder, const Block& block, Row& row, Boundary
   const bool known = builder.nodes_of(row.text(0), block, row.location(), nodes);
   const auto freedoms = freedoms_of(row);
   if (!known || !freedoms) return;
-  if (!builder.in_step && freedoms->magnitude != 0.0) {
-    return row.error("before the first step conditions can only be zero; move it into a *STEP");
-  }
   if (condition.fixed && freedoms->magnitude != 0.0) return row.error("FIXED takes no magnitude; remove field 4");
   condition.magnitude = scaled(builder, condition.amplitude, freedoms->magnitude);
   condition.file = row.location().file;

@@ -109,6 +109,16 @@ TEST(UsersDecks, ElasticConstantsOfSeveralTemperatures) {
   EXPECT_NE(falling.find("list them rising"), std::string::npos) << falling;
 }
 
+TEST(UsersDecks, MotionsBeforeTheFirstStepAreOfTheFirstStep) {
+  const auto steps = read(brick + "*BOUNDARY\n1, 1, 1, 0.5\n" + static_step + "*STEP, NAME=B\n*STATIC\n*END STEP\n").model.steps;
+  const auto of = [](const Step& step) {
+    return *std::ranges::find_if(step.boundary, [](const auto& condition) { return condition.magnitude != 0.0; });
+  };
+  EXPECT_EQ(of(steps[0]).magnitude, 0.5);
+  EXPECT_FALSE(of(steps[0]).propagated);
+  EXPECT_TRUE(of(steps[1]).propagated);
+}
+
 TEST(UsersDecks, WhatNeedsFlowsOfHeatIsLeftOutWithANote) {
   const auto result = read(replaced(brick, "*DENSITY", "*EXPANSION, ZERO=20.\n1.2E-5\n*CONDUCTIVITY\n50.\n*DENSITY") +
                            "*PHYSICAL CONSTANTS, ABSOLUTE ZERO=-273.15\n" + static_step);
