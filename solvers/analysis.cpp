@@ -89,6 +89,7 @@ Analysis::Analysis(const Model& model_, const Communicator& communicator_, const
     current.element_history.push_back(group->initial_history());
     group->set_initial_fields(model, current.element_history.back());
   }
+  ThermalStrains(*this).start(*this);
   current.mass_scale.resize(element_groups.size());
   current.restrained.resize(element_groups.size());
   for (std::size_t pair = 0; pair < contacts.size(); ++pair) current.contact.emplace_back(contacts[pair].size() + mesh_contacts[pair].size());
@@ -238,7 +239,6 @@ void Analysis::leave_linear_geometry(const Step& step) {
 
 void Analysis::start_step(const Step& step) {
   kinetic_energy.reset();
-  if (current.step == 0 && !model.restart_read) ThermalStrains(*this).start(*this);
   if (current.linear && !stays_linear(step)) leave_linear_geometry(step);
   apply_attachments(step);
   apply_interactions();

@@ -21,7 +21,7 @@ class ThermalStrains {
   /// Writes the thermal strains of that instant; of first order in a state that is (State::linear). Collective.
   /// @throws AnalysisError on all ranks where nothing would be left of an element.
   void set(Analysis& analysis, const Step& step, double step_time, double total_time);
-  /// Before the first step: constants of the initial temperatures, at which there are no thermal strains. Collective.
+  /// Of a state as it begins: constants of the initial temperatures, at which there are no thermal strains.
   void start(Analysis& analysis);
   /// What steps of first order left counts as finite from now on.
   void leave_first_order(Analysis& analysis) const;
