@@ -208,6 +208,13 @@ def constants(runner):
     close(np.ptp(energy["ETOTAL"][:]) / energy["ALLSE"][0], 0.0, 1e-9, "energy balance")
     energy = runs[0].file["step_3/history/energy"]
     close(np.ptp(energy["ETOTAL"][:]) / energy["ALLSE"][0], 0.0, 1e-4, "energy balance of explicit dynamics")
+    last = runs[0].element("C3D8", "S", 3)
+    deck = block("C3D8")
+    deck.add(steel)
+    deck.add(step(FINITE, ROLLERS + "\n*BOUNDARY, FIXED\nX1, 1, 1", "").replace("U, RF, NT", "U"))
+    checkpoint = ("--import", os.path.join(runner.folder, "large_1", "large.ckpt.h5"))
+    after = runner.run("imported", deck, options=checkpoint).element("C3D8", "S")
+    close(np.abs(after - last).max() / np.abs(last).max(), 0.0, 1e-6, "stress of another job's state")
 
 
 def explicit(runner):
