@@ -2,8 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "deck_support.hpp"
+#include "deck_writer.hpp"
 #include "materials/elastic_by_temperature.hpp"
 
 namespace balocco {
@@ -94,7 +96,7 @@ TEST(UsersDecks, YieldStressesOfSeveralTemperaturesAreRefusedAsSuch) {
   EXPECT_EQ(errors_of(replaced(brick, "*DENSITY", "*PLASTIC\n300., 0., 20.\n400., 0.2, 20.\n*DENSITY") + static_step), "");
 }
 
-TEST(UsersDecks, ElasticConstantsOfSeveralTemperatures) {
+TEST(UsersDecks, ElasticConstantsOfSeveralTemperaturesAndTiesByContact) {
   const auto full = replaced(brick, "C3D8R", "C3D8");
   const auto material = [&](const std::string& from, const std::string& to) { return read(replaced(full, from, to) + static_step).model.materials[0]; };
   const auto parameters = material("*ELASTIC\n210000., 0.3", "*ELASTIC\n2., 0.3, 20.\n1., 0.2, 300.").parameters;
@@ -103,6 +105,12 @@ TEST(UsersDecks, ElasticConstantsOfSeveralTemperatures) {
   EXPECT_DOUBLE_EQ(ElasticTable(parameters).at(160.0).lambda, IsotropicElastic::from_young(1.5, 0.25).lambda);
   EXPECT_EQ(ElasticTable(parameters).at(400.0).lambda, IsotropicElastic::from_young(1.0, 0.2).lambda);
   EXPECT_EQ(material("*ELASTIC\n210000., 0.3", "*ELASTIC\n2., 0.3, 20.\n2., 0.3, 300.").parameters.size(), 2u);
+  const auto deck = replaced(full, "*ELASTIC\n210000., 0.3", "*ELASTIC\n2., 0.3, 20.\n1., 0.2, 300.");
+  const auto tied = "*SURFACE INTERACTION, NAME=GLUE\n*SURFACE BEHAVIOR, PRESSURE-OVERCLOSURE=TIED\n1e6\n";
+  const auto again = read(write_deck(read(deck + tied + static_step).model)).model;
+  EXPECT_EQ(again.materials[0].parameters, parameters);
+  EXPECT_EQ(again.interactions[0].behavior.slope, 1e6);
+  EXPECT_TRUE(std::isinf(again.interactions[0].behavior.tension));
   EXPECT_EQ(material("7.8E-9", "2., 20.\n2., 300.").density, 2.0);
   EXPECT_NE(errors_of(replaced(brick, "7.8E-9", "2., 20.\n3., 300.") + static_step).find("tables of temperature"), std::string::npos);
   const auto falling = errors_of(replaced(brick, "*ELASTIC\n210000., 0.3", "*ELASTIC\n2., 0.3, 20.\n1., 0.2, 10.") + static_step);
