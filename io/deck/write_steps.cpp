@@ -3,8 +3,6 @@
 #include <iterator>
 #include <utility>
 
-#include "deck/body_loads.hpp"
-#include "deck/surface_loads.hpp"
 #include "deck/writer.hpp"
 
 namespace balocco::deck {
@@ -213,40 +211,6 @@ const NodeSet* Writer::set_of(Conditions first, Conditions end) const {
                       [](std::int32_t node, const BoundaryCondition& c) { return node == c.node; });
   });
   return found == model_.node_sets.end() ? nullptr : &*found;
-}
-
-void Writer::loads(const Step& step) {
-  // Of a static perturbation what comes on top of the state's loads.
-  const bool on_top = std::holds_alternative<StaticPerturbationProcedure>(step.procedure);
-  const auto is_said = [&](const auto& load) { return !on_top || load.magnitude != load.previous; };
-  const auto said = [&](const auto& load) { return on_top ? load.magnitude - load.previous : load.magnitude; };
-  std::string header;
-  const auto head = [&](const std::string& keyword, std::int32_t amplitude) {
-    const std::string wanted = keyword + amplitude_parameter(amplitude);
-    if (wanted != header) line("{}", wanted);
-    header = wanted;
-  };
-  for (const auto& load : step.concentrated_loads) {
-    if (!is_said(load)) continue;
-    head(load.follower ? "*CLOAD, FOLLOWER" : "*CLOAD", load.amplitude);
-    line("{}, {}, {}", node_id(load.node), load.dof + 1, said(load));
-  }
-  for (const auto& temperature : step.temperatures) {
-    head("*TEMPERATURE", temperature.amplitude);
-    line("{}, {}", node_id(temperature.node), temperature.magnitude);
-  }
-  for (auto load : step.surface_loads) {
-    if (!is_said(load)) continue;
-    head(fmt::format("*DSLOAD{}", surface_load_parameters(load)), load.amplitude);
-    load.magnitude = said(load);
-    line("{}, {}", quoted(model_.surfaces[load.surface].name), surface_load_text(load));
-  }
-  for (auto load : step.body_loads) {
-    if (!is_said(load)) continue;
-    head("*DLOAD", load.amplitude);
-    load.magnitude = said(load);
-    line("{}, {}", load.element_set < 0 ? "" : quoted(model_.element_sets[load.element_set].name), body_load_text(load));
-  }
 }
 
 void Writer::attachments(const Step& step) {

@@ -10,13 +10,13 @@
 #include "constraints/linkages.hpp"
 #include "elements/element_type.hpp"
 #include "elements/solids/solid_jacobian.hpp"
-#include "materials/elastic_by_temperature.hpp"
 #include "materials/material_option.hpp"
 #include "model/check_constraints.hpp"
 #include "model/check_density.hpp"
 #include "model/check_contact.hpp"
 #include "model/check_failure.hpp"
 #include "model/check_quadratic.hpp"
+#include "model/check_temperature.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -40,7 +40,7 @@ class Checker {
     check_initial_fields();
     find_idle_nodes();
     for (const auto& step : model_.steps) check_step(step);
-    for (const auto& check : {check_constraints, check_contact, check_density, check_failure, check_quadratic})
+    for (const auto& check : {check_constraints, check_contact, check_density, check_failure, check_quadratic, check_temperature})
       for (const auto& [location, text] : check(model_)) error(location, text);
     return std::move(found_);
   }
@@ -61,9 +61,6 @@ class Checker {
   void check_materials();
   void check_options(const Material& material, const MaterialLaw& law);
   void check_laws_of_sections();
-  void check_expansion(const Section& section, const Material& material, bool composite);
-  void check_elastic_table(const Section& section, const Material& material);
-  void check_temperatures(const Step& step);
   void check_law(const Section& section, std::int32_t material);
   void check_rigid_bodies();
   void check_initial_fields();
@@ -240,50 +237,10 @@ void Checker::check_initial_fields() {
     }
 }
 
-/// Thermal strain is a matter of laws that are evaluated at points (materials/expanding.hpp).
-void Checker::check_expansion(const Section& section, const Material& material, bool composite) {
-  const bool expands = section.kind == Section::Kind::solid || section.kind == Section::Kind::truss ||
-                       (section.kind == Section::Kind::membrane && !composite);
-  if (!material.expansion || expands) return;
-  error(section.location, fmt::format("*{}: its material {} has *EXPANSION, which is followed in solids, trusses and membranes of one "
-                                      "material; take *EXPANSION out, or model the part with solids",
-                                      section.kind == Section::Kind::membrane ? "MEMBRANE SECTION"
-                                      : section.kind == Section::Kind::beam   ? "BEAM SECTION"
-                                                                              : "SHELL SECTION",
-                                      material.name));
-}
-
-/// Only the law of solids follows it (materials/elastic_by_temperature.hpp), and no hourglass stiffness does.
-void Checker::check_elastic_table(const Section& section, const Material& material) {
-  if (!ElasticTable::is_in(material)) return;
-  const auto row = static_cast<std::int32_t>(&section - model_.sections.data());
-  const bool is_reduced = std::ranges::any_of(model_.elements, [&](const ElementTable& table) {
-    return table.type->nodes == 8 && table.type->integration_points == 1 && std::ranges::count(table.section, row) > 0;
-  });
-  if (section.kind == Section::Kind::solid && !is_reduced) return;
-  error(section.location, fmt::format("*ELASTIC: the constants of material {} follow the temperature, which solids other than C3D8R alone do; give "
-                                      "one line of constants, or take C3D8 or C3D8I",
-                                      material.name));
-}
-
-/// Perturbations know no thermal loads.
-void Checker::check_temperatures(const Step& step) {
-  if (step.temperatures.empty()) return;
-  if (std::ranges::none_of(model_.materials, follows_temperature)) return;
-  const auto moves = [](const NodalTemperature& said) { return said.magnitude != said.previous; };
-  const bool superposes = std::holds_alternative<BuckleProcedure>(step.procedure) || std::holds_alternative<ModalDynamicProcedure>(step.procedure);
-  if (superposes || (step.is_perturbation() && std::ranges::any_of(step.temperatures, moves)))
-    error({step.temperatures.front().file, step.temperatures.front().line},
-          fmt::format("*TEMPERATURE: step {} of {} does not follow temperatures; use *STATIC or *DYNAMIC, or give the job no temperatures",
-                      step.name, step.procedure_name()));
-}
-
 void Checker::check_law(const Section& section, std::int32_t material) {
   const MaterialLaw* law = find_material_law(model_.materials[material].law);
   if (law == nullptr) return;  // told
   const bool composite = !section.plies.empty();
-  check_expansion(section, model_.materials[material], composite);
-  check_elastic_table(section, model_.materials[material]);
   const bool fits = section.kind == Section::Kind::solid   ? law->solid != nullptr
                     : section.kind == Section::Kind::truss ? law->line != nullptr
                     : section.kind == Section::Kind::beam  ? law->line != nullptr && law->lamina_stiffness != nullptr
@@ -399,7 +356,6 @@ void Checker::check_step(const Step& step) {
   }
   check_boundary(step);
   check_loads(step);
-  check_temperatures(step);
 }
 
 }  // namespace
