@@ -8,7 +8,8 @@
 
 namespace balocco {
 
-using Pack = std::experimental::fixed_size_simd<double, pack_size>;
+/// One register where the processor has registers of that size: GCC then inlines every operation.
+using Pack = std::experimental::simd<double, std::experimental::simd_abi::deduce_t<double, pack_size>>;
 using PackMask = Pack::mask_type;
 
 /// `address` is aligned to 64 bytes and holds pack_size doubles.

@@ -55,7 +55,7 @@ T power(const T& x, double exponent) {
 inline double maximum(double a, double b) { return a > b ? a : b; }
 template <PackOfLanes T>
 T maximum(const T& a, const std::type_identity_t<T>& b) {
-  return max(a, b);
+  return select(a > b, a, T(b));
 }
 
 }  // namespace balocco
