@@ -16,8 +16,7 @@ S
 
 
 def strip(kind, along, across, length, width, thickness, material, skew=0.0):
-    """A flat sheet from the origin in x and y, nodes numbered along x first; its corners E2 at the end, E4 at the root, E1 and E3 beside.
-    Triangles share a diagonal: their E2 is at the end or beside."""
+    """A flat sheet from the origin in x and y, nodes numbered along x first; edges E2 of the elements LAST are its end, the surface FREE."""
     deck = ["*NODE, NSET=ALL"]
     number = lambda i, j: 1 + i + (along + 1) * j
     for j in range(across + 1):
@@ -37,8 +36,6 @@ def strip(kind, along, across, length, width, thickness, material, skew=0.0):
                     ends.append(element)
     deck.append("*ELSET, ELSET=LAST\n" + "\n".join(map(str, ends)))
     deck.append("*NSET, NSET=ROOT\n" + "\n".join(str(number(0, j)) for j in range(across + 1)))
-    deck.append("*NSET, NSET=END\n" + "\n".join(str(number(along, j)) for j in range(across + 1)))
-    deck.append("*NSET, NSET=SIDE\n" + "\n".join(str(number(i, 0)) for i in range(along + 1)))
     deck.append(f"*SURFACE, NAME=FREE\nLAST, E2\n{material}*SHELL SECTION, ELSET=SHEET, MATERIAL=M\n{thickness!r}, 5")
     return "\n".join(deck) + "\n"
 
@@ -131,16 +128,16 @@ def block():
                 if k == 1:
                     top.append(len(rows))
     return BLOCK.format(nodes=nodes, elements="\n".join(rows) + "\n*ELSET, ELSET=BLOCK_TOP\n" + ", ".join(map(str, top))
-                        + "\n*NSET, NSET=BASE, GENERATE\n1, 9\n*NSET, NSET=ROOF, GENERATE\n19, 27\n")
+                        + "\n*NSET, NSET=BASE, GENERATE\n1, 9\n")
 
 
 def as_pressure(run):
-    """A traction against the normal that turns with its surface is a pressure; the block swells by a third and bulges."""
+    """A traction against the normal that turns with its surface is a pressure; the block stretches and bulges."""
     deck = block() + "*STEP, NLGEOM\n*STATIC\n0.25, 1.\n{load}" + FIELD + "*END STEP\n"
     answers = [run(deck.format(load=load), ranks).frame("U", -1) for load, ranks in
                (("*DSLOAD\nTOP, P, -1.\n", 1), ("*DSLOAD\nTOP, TRVEC, 1., 0., 0., 0.5\n", 2),
                 ("*DLOAD\nBLOCK_TOP, TRVEC2, 1., 0., 0., 2.\n", 1))]
-    check("the block swells", float(np.abs(answers[0]).max() > 0.2), 1.0, 0.0)
+    check("the block stretches", float(np.abs(answers[0]).max() > 0.2), 1.0, 0.0)
     for answer in answers[1:]:
         check("traction as pressure", np.abs(answer - answers[0]).max(), 0.0, 1e-7)
 
