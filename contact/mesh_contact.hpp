@@ -5,11 +5,11 @@
 // Normal force of a place: t = max(0, multiplier - stiffness * gap), the stiffness being its area times the slope that the deck gives
 // (PRESSURE-OVERCLOSURE=LINEAR; the multiplier is zero then; of EXPONENTIAL and TABULAR see model/pressure_law.hpp), or in explicit
 // steps that of the layer of slave elements behind it (slave_surface.hpp), in implicit steps 20 times as much, with a multiplier that the
-// solver augments. Where the deck gives LINEAR a tension s, nodes have the law of CalculiX's node-to-face springs, pressure k d (1/2 + arctan(d / e) / pi) of the overclosure d with
-// e = pi s / k, which pulls with s at great clearance (CalculiX CrunchiX User's Manual, "Node-to-Face Penalty Contact"). An infinite tension
-// is PRESSURE-OVERCLOSURE=TIED: the places that lie on the master, to 5 % of the edge of its faces, have the pressure k d, which
-// pulls too, and stick. Friction: a
-// tangential spring from the anchor, a place of the master that moves with its material, cut at mu * t.
+// solver augments. Where the deck gives LINEAR a tension s, nodes have the law of CalculiX's node-to-face springs, pressure
+// k d (1/2 + arctan(d / e) / pi) of the overclosure d with e = pi s / k, which pulls with s at great clearance (CalculiX CrunchiX User's
+// Manual, "Node-to-Face Penalty Contact"). An infinite tension is PRESSURE-OVERCLOSURE=TIED: the places that lie on the master, to 5 % of
+// the edge of its faces, have the pressure k d, which pulls too, and stick. Friction: a tangential spring from the anchor, a place of the
+// master that moves with its material, cut at mu * t.
 #pragma once
 
 #include <optional>

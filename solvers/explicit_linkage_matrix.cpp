@@ -50,13 +50,13 @@ void ExplicitLinkages::find_matrix(System& system, double average) const {
     }
   }
   for (const auto& member : system.members)
-    if (member.cloud) add_cloud(system, member, average);
+    if (member.cloud) add_response_of_cloud(system, member, average);
   for (const auto& member : system.members)
     for (const auto& shared : member.shared) let_go(system, member, shared);
   if (system.hub >= 0) find_hub_blocks(system, average);
 }
 
-void ExplicitLinkages::add_cloud(System& system, const Member& member, double average) {
+void ExplicitLinkages::add_response_of_cloud(System& system, const Member& member, double average) {
   const auto response = member.cloud->response(member.places.front().rotation);
   const auto number = static_cast<std::int32_t>(&member - system.members.data());
   auto& block = system.blocks.block(system.blocks.place(number, number));

@@ -171,7 +171,7 @@ void ExplicitLinkages::list_columns(System& system) const {
 }
 
 /// What tells a row from others besides the columns of movers: columns of the response of its own cloud, in parts of its mobility.
-void ExplicitLinkages::add_cloud(const System& system, const Member& member, std::size_t row, SparseRow& columns) {
+void ExplicitLinkages::add_columns_of_cloud(const System& system, const Member& member, std::size_t row, SparseRow& columns) {
   const auto response = member.cloud->response(member.places.front().rotation);
   const auto first = static_cast<std::int64_t>(system.mover_of_column.size()) + 6 * (&member - system.members.data());
   const int component = member.components[member.rows[row]];
@@ -214,7 +214,7 @@ void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) con
         }
         k += mover.size;
       }
-      if (member.cloud) add_cloud(system, member, i, row);
+      if (member.cloud) add_columns_of_cloud(system, member, i, row);
       rows.push_back(std::move(row));
     }
   const auto implied = dependent_rows(rows);

@@ -162,7 +162,7 @@ class ExplicitLinkages {
   void take_inertia(Mover& mover) const;
   void list_columns(System& system) const;
   void find_implied_rows(Analysis& analysis, System& system) const;
-  static void add_cloud(const System& system, const Member& member, std::size_t row, SparseRow& columns);
+  static void add_columns_of_cloud(const System& system, const Member& member, std::size_t row, SparseRow& columns);
   void drop_implied_rows(const Analysis& analysis, System& system) const;
   void number(System& system) const;
   void find_hub(System& system) const;
@@ -175,7 +175,7 @@ class ExplicitLinkages {
   void find_answers(System& system, double average) const;
   void find_responses(const Analysis& analysis, System& system) const;
   void find_matrix(System& system, double average) const;
-  static void add_cloud(System& system, const Member& member, double average);
+  static void add_response_of_cloud(System& system, const Member& member, double average);
   /// Rows of guides that do not hold, and their columns, become those of the identity.
   static void let_go(System& system, const Member& member, const Shared& shared);
   void find_hub_blocks(System& system, double average) const;

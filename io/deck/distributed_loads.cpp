@@ -91,9 +91,10 @@ std::optional<std::int32_t> loaded_surface(Builder& builder, const Block& block,
   surface.location = row.location();
   for (const auto element : elements) {
     if (add_part(builder.model, element, label, surface)) continue;
-    row.error(fmt::format("element {} of type {} cannot take the load {}; solids take P1 to P6, TRVEC1 and TRSHR1 ... by face, membranes and "
-                          "shells P, TRVEC and TRSHR, and EDNOR1 ... by edge, beams PX, PY and PZ along global axes",
-                          builder.model.element_name(element), builder.model.elements[element.table].type->name, row.name(1)));
+    const ElementType& type = *builder.model.elements[element.table].type;
+    row.error(fmt::format("element {} of type {} cannot take the load {}; solids take P1 to P6, TRVEC1 and TRSHR1 ... by face, membranes "
+                          "and shells P, TRVEC and TRSHR, and EDNOR1 ... by edge, beams PX, PY and PZ along global axes",
+                          builder.model.element_name(element), type.name, row.name(1)));
     return std::nullopt;
   }
   settle_edges(builder.model, surface);
@@ -115,7 +116,8 @@ void read_distributed(Builder& builder, const Block& block) {
     }
     const auto label = element_label(row.name(1));
     if (!label) {
-      row.error(fmt::format("load type '{}' is not supported; allowed: P1 to P6, {}, {}", row.text(1), surface_load_labels(), body_load_labels()));
+      row.error(fmt::format("load type '{}' is not supported; allowed: P1 to P6, {}, {}", row.text(1), surface_load_labels(),
+                            body_load_labels()));
       continue;
     }
     if (const auto surface = loaded_surface(builder, block, row, *label))
@@ -123,8 +125,8 @@ void read_distributed(Builder& builder, const Block& block) {
   }
 }
 
-const std::vector<ParameterRule> distributed_parameters{choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY"), choice("FOLLOWER", {"YES", "NO"}),
-                                            choice("CONSTANT RESULTANT", {"YES", "NO"})};
+const std::vector<ParameterRule> distributed_parameters{choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY"),
+                                                        choice("FOLLOWER", {"YES", "NO"}), choice("CONSTANT RESULTANT", {"YES", "NO"})};
 
 const RegisterKeyword dload{{"DLOAD", Phase::history, Place::step, distributed_parameters, read_distributed}};
 const RegisterKeyword dsload{{"DSLOAD", Phase::history, Place::step, distributed_parameters, read_surface_loads}};

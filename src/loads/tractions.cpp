@@ -110,6 +110,8 @@ void Tractions::add(const ElementTable& table, const FaceRef& face, std::span<co
     for (const int local : nodes_of_face(*table.type, face.face)) push(local);
   }
   first_.push_back(static_cast<std::int32_t>(node_.size()));
+  const std::size_t count = nodes(size() - 1).size();
+  if (stations_[count].empty()) stations_[count] = face_stations(count);
 }
 
 std::span<const std::int32_t> Tractions::nodes(std::int32_t item) const {
@@ -127,7 +129,7 @@ Tractions::Places<T> Tractions::forces_on_face(std::int32_t item, double magnitu
   const auto reference = std::span(reference_).subspan(first_[item], count);
   const Vector3<double> given{load_.direction};
   Places<T> force{};
-  for (const FaceStation& station : face_stations(count)) {
+  for (const FaceStation& station : stations_[count]) {
     const auto shapes = face_shapes(count, station.xi, station.eta);
     const auto before = tangents_of<double>(shapes, count, reference);
     const auto now = tangents_of<T>(shapes, count, place);

@@ -4,6 +4,7 @@
 #include <array>
 #include <vector>
 
+#include "elements/face_shapes.hpp"
 #include "loads/surface_loading.hpp"
 #include "math/tensor.hpp"
 
@@ -39,6 +40,7 @@ class Tractions final : public SurfaceLoading {
   SurfaceLoad load_;
   std::vector<std::int32_t> first_{0}, node_;  // of each face or edge, and one more
   std::vector<Vector3<double>> reference_;     // places of node_ in the reference configuration
+  std::array<std::vector<FaceStation>, most_nodes + 1> stations_;  // of faces, by their number of nodes
 };
 
 }  // namespace balocco
