@@ -141,10 +141,12 @@ std::vector<bool> touched_nodes(const Partition& partition, int rank) {
   return touched;
 }
 
-/// Model rows of the nodes shared with each other rank, in the same order on both sides: rank -> rows.
-std::map<int, std::vector<std::int32_t>> shared_rows(const Partition& partition, const Communicator& communicator) {
+/// Model rows of nodes by another rank, sorted, so that they are in the same order on both sides.
+using SharedRows = std::map<int, std::vector<std::int32_t>>;
+
+SharedRows shared_rows(const Partition& partition, const Communicator& communicator) {
   const auto touched = touched_nodes(partition, communicator.rank());
-  std::map<int, std::vector<std::int32_t>> shared;
+  SharedRows shared;
   for (std::size_t e = 0; e < partition.elements.size(); ++e) {
     if (partition.part[e] == communicator.rank()) continue;
     for (const std::int32_t node : partition.nodes(e))
@@ -163,6 +165,36 @@ std::map<int, std::vector<std::int32_t>> shared_rows(const Partition& partition,
     rows.erase(std::unique(rows.begin(), rows.end()), rows.end());
   }
   return shared;
+}
+
+/// Per model node: whether a rank that knows it computes forces there, as those of its elements, of what it owns, of reference nodes and
+/// of all that may touch something.
+std::vector<bool> computed_nodes(const Partition& partition, int rank) {
+  auto computed = touched_nodes(partition, rank);
+  for (std::size_t row = 0; row < computed.size(); ++row)
+    if (partition.reference[row] || partition.owner[row] == rank) computed[row] = true;
+  for (const auto& pair : partition.model.contact_pairs)
+    for (const auto surface : {pair.slave, pair.master})
+      for (const auto row : surface_nodes(partition.model, partition.model.surfaces[surface])) computed[row] = true;
+  return computed;
+}
+
+SharedRows rows_computed_by_both(const Partition& partition, int rank, SharedRows shared) {
+  const auto here = computed_nodes(partition, rank);
+  for (auto& [other, rows] : shared) {
+    const auto there = computed_nodes(partition, other);
+    std::erase_if(rows, [&](std::int32_t row) { return !here[row] || !there[row]; });
+  }
+  return shared;
+}
+
+std::vector<SharedNodes> local_nodes_of(const SharedRows& shared, const Domain& domain) {
+  std::vector<SharedNodes> neighbours;
+  for (const auto& [rank, rows] : shared) {
+    neighbours.push_back({rank, {}});
+    for (const std::int32_t row : rows) neighbours.back().nodes.push_back(domain.local_node[row]);
+  }
+  return neighbours;
 }
 
 Point centroid(const Model& model, std::span<const std::int32_t> nodes) {
@@ -198,7 +230,7 @@ std::vector<Placed> ordered_elements(const Partition& partition, int rank, const
   return order;
 }
 
-/// Fills node_row, local_node, owned and turning: nodes that turn first, reference nodes last, each kind in the order in which the
+/// Fills node_row, local_node, owned, computed and turning: nodes that turn first, reference nodes last, each kind in the order in which the
 /// elements come to them, so that a pass over the elements meets new nodes one after the other in memory.
 void number_nodes(const Partition& partition, int rank, std::span<const Placed> order, Domain& domain) {
   const auto count = partition.model.nodes.size();
@@ -219,11 +251,13 @@ void number_nodes(const Partition& partition, int rank, std::span<const Placed> 
     return std::pair<bool, bool>(!partition.turns[row], partition.reference[row]);
   });
 
+  const auto computed = computed_nodes(partition, rank);
   domain.local_node.assign(static_cast<std::size_t>(count), -1);
   for (std::int32_t node = 0; node < domain.size(); ++node) {
     const auto row = domain.node_row[node];
     domain.local_node[row] = node;
     domain.owned.push_back(owner[row] == rank);
+    domain.computed.push_back(computed[row]);
     if (partition.turns[row]) ++domain.turning;
   }
 }
@@ -260,12 +294,8 @@ Domain make_domain(const Model& model, const Communicator& communicator, const P
   Domain domain;
   number_nodes(partition, communicator.rank(), order, domain);
   make_groups(partition, order, domain);
-  std::vector<SharedNodes> neighbours;
-  for (const auto& [rank, rows] : shared) {
-    neighbours.push_back({rank, {}});
-    for (const std::int32_t row : rows) neighbours.back().nodes.push_back(domain.local_node[row]);
-  }
-  domain.halo = std::make_unique<Halo>(communicator, std::move(neighbours), domain.turning, Halo::Tag::domain);
+  domain.halo = std::make_unique<Halo>(communicator, local_nodes_of(shared, domain), domain.turning, Halo::Tag::domain);
+  domain.computed_by_both = local_nodes_of(rows_computed_by_both(partition, communicator.rank(), shared), domain);
   return domain;
 }
 

@@ -31,10 +31,12 @@ struct Domain {
   std::vector<std::int32_t> node_row;   // local node -> model row
   std::vector<std::int32_t> local_node;  // model row -> local node, -1: not on this rank
   std::vector<bool> owned;              // per local node: exactly one copy of each node is owned
+  std::vector<bool> computed;           // per local node: this rank computes forces there, or may; others are here for their linkage's sake
   std::int32_t turning = 0;             // local nodes [0, turning) rotate (elements/turning_nodes.hpp)
   std::vector<GroupInput> groups;       // elements of this rank by table and section, in table order (no MASS, ROTARYI); an Analysis
                                         // makes its element groups of them and leaves none
   std::unique_ptr<Halo> halo;
+  std::vector<SharedNodes> computed_by_both;  // of the halo's nodes, likewise: those that both ranks compute
 
   std::int32_t size() const { return static_cast<std::int32_t>(node_row.size()); }
   std::int32_t scratch_node() const { return size(); }

@@ -1,5 +1,5 @@
 // The graph that is partitioned: a vertex for every element that computes forces, an edge between elements that share a
-// face (solids), an edge line (membranes) or a node (trusses).
+// face (solids), an edge line (membranes) or a node (trusses), or that constraints of few nodes join.
 #pragma once
 
 #include <cstdint>

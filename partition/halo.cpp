@@ -1,5 +1,6 @@
 #include "halo.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace balocco {
@@ -65,6 +66,33 @@ void Halo::finish_sum(std::span<const NodalForces> fields) {
     for (const auto& [force, moment] : fields.first(fields_)) {
       in = add(neighbours_[i].nodes, in, force);
       if (moment != nullptr) in = add(turning_[i], in, moment);
+    }
+  }
+}
+
+void copy_from_owners(const Communicator& communicator, const std::vector<SharedNodes>& neighbours, const std::vector<bool>& owned,
+                      std::span<double> values) {
+  constexpr int width = 4, tag = static_cast<int>(Halo::Tag::owners);
+  std::vector<std::vector<double>> outgoing(neighbours.size()), incoming(neighbours.size());
+  std::vector<MPI_Request> requests(2 * neighbours.size(), MPI_REQUEST_NULL);
+  const auto exists = [&](std::int32_t node) { return width * static_cast<std::size_t>(node) < values.size(); };
+  const auto of = [&](std::int32_t node) { return values.subspan(width * static_cast<std::size_t>(node), width); };
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    const auto& [rank, nodes] = neighbours[i];
+    for (const auto node : nodes)
+      if (exists(node)) outgoing[i].insert(outgoing[i].end(), {owned[node] ? 1.0 : 0.0, of(node)[0], of(node)[1], of(node)[2], of(node)[3]});
+    incoming[i].resize(outgoing[i].size());
+    const auto count = static_cast<int>(outgoing[i].size());
+    MPI_Irecv(incoming[i].data(), count, MPI_DOUBLE, rank, tag, communicator.handle(), &requests[2 * i]);
+    MPI_Isend(outgoing[i].data(), count, MPI_DOUBLE, rank, tag, communicator.handle(), &requests[2 * i + 1]);
+  }
+  MPI_Waitall(static_cast<int>(requests.size()), requests.data(), MPI_STATUSES_IGNORE);
+  for (std::size_t i = 0; i < neighbours.size(); ++i) {
+    const double* in = incoming[i].data();
+    for (const auto node : neighbours[i].nodes) {
+      if (!exists(node)) continue;
+      if (*in == 1.0) std::copy_n(in + 1, width, of(node).begin());
+      in += 1 + width;
     }
   }
 }

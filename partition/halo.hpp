@@ -25,7 +25,7 @@ struct SharedNodes {
 class Halo {
  public:
   /// Exchanges that may be under way at the same time have tags of their own.
-  enum class Tag : int { domain = 4711, step };
+  enum class Tag : int { domain = 4711, step, owners };
   /// Local nodes [0, turning) have the second vector. `fields`: how many such pairs are summed together.
   Halo(const Communicator& communicator, std::vector<SharedNodes> neighbours, std::int32_t turning, Tag tag, std::size_t fields = 1);
   ~Halo();
@@ -50,5 +50,10 @@ class Halo {
   std::vector<std::vector<double>> outgoing_, incoming_;
   std::vector<MPI_Request> requests_;  // receives, then sends
 };
+
+/// Gives the other copies of nodes the values of their owners', 4 numbers a node, of which there may be fewer than local nodes: the first.
+/// For rare occasions. Collective.
+void copy_from_owners(const Communicator& communicator, const std::vector<SharedNodes>& neighbours, const std::vector<bool>& owned,
+                      std::span<double> values);
 
 }  // namespace balocco

@@ -1,7 +1,11 @@
 #include "explicit_cloud.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <experimental/simd>
+#include <numeric>
 
+#include "math/exact_sum.hpp"
 #include "vectors.hpp"
 
 namespace balocco {
@@ -15,11 +19,79 @@ void add_dyad(Matrix3<double>& sum, const Vector3<double>& a, const Vector3<doub
 
 Vector3<double> row(const double* nodal, std::int32_t node) { return vector_of(nodal + 4 * std::ptrdiff_t{node}); }
 
+using Four = std::experimental::fixed_size_simd<double, 4>;
+
+Four four(const double* nodal, std::int32_t node) { return Four(nodal + 4 * std::ptrdiff_t{node}, std::experimental::element_aligned); }
+
+/// Order-free sums of vectors in two parts: what rounding to the first part's quantum leaves is a hundred bits below the largest sum in
+/// the second one.
+class SplitSum {
+ public:
+  SplitSum(double largest, std::size_t addends) : coarse_(rounding_constant(largest)) {
+    const double quantum = std::ldexp(coarse_ / 1.5, -52);
+    fine_ = rounding_constant(static_cast<double>(addends) * quantum);
+  }
+  void add(const Four& addend) {
+    const Four main = rounded(addend, Four(coarse_));
+    main_ += main;
+    rest_ += rounded(addend - main, Four(fine_));
+  }
+  double* put(double* out) const {
+    main_.copy_to(out, std::experimental::element_aligned);
+    rest_.copy_to(out + 4, std::experimental::element_aligned);
+    return out + 8;
+  }
+  static Vector3<double> value(const double* in) { return vector_of(in) + vector_of(in + 4); }
+
+ private:
+  double coarse_, fine_ = 0.0;
+  Four main_ = 0.0, rest_ = 0.0;
+};
+
+/// Sums of a vector of every node, times its weight and times its weighted arm.
+struct MomentSums {
+  SplitSum center, spread[3];
+  MomentSums(double largest, std::size_t addends)
+      : center(largest, addends), spread{{largest, addends}, {largest, addends}, {largest, addends}} {}
+  void add(const Four& vector, double weight, const Vector3<double>& arm) {
+    const Four weighted = weight * vector;
+    center.add(weighted);
+    for (int j = 0; j < 3; ++j) spread[j].add(arm[j] * weighted);
+  }
+  double* put(double* out) const {
+    out = center.put(out);
+    for (const auto& sum : spread) out = sum.put(out);
+    return out;
+  }
+};
+
+CloudMoments moments_of(const double* sums, double reach) {
+  CloudMoments moments{.center = SplitSum::value(sums), .spread = {}};
+  for (int j = 0; j < 3; ++j) {
+    const auto row = reach * SplitSum::value(sums + 8 * (j + 1));
+    for (int k = 0; k < 3; ++k) moments.spread(j, k) = row[k];
+  }
+  return moments;
+}
+
 }  // namespace
 
-ExplicitCloud::ExplicitCloud(const DistributingConstraint& coupling, const std::vector<std::int32_t>& nodes, const std::vector<double>& inverse_mass)
-    : lever_(coupling.lever()), change_(nodes.size()) {
-  for (std::size_t i = 0; i < nodes.size(); ++i) nodes_.push_back({nodes[i], coupling.weights()[i], 0.0, coupling.arms()[i]});
+ExplicitCloud::ExplicitCloud(const DistributingConstraint& coupling, const std::vector<std::int32_t>& nodes, const Domain& domain,
+                             const std::vector<double>& inverse_mass)
+    : lever_(coupling.lever()) {
+  std::vector<std::size_t> order(nodes.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto kind = [&](std::size_t i) { return domain.owned[nodes[i]] ? 0 : domain.computed[nodes[i]] ? 1 : 2; };
+  std::ranges::stable_sort(order, {}, kind);
+  in_order_.resize(nodes.size());
+  for (const auto i : order) {
+    in_order_[i] = nodes_.size();
+    nodes_.push_back({nodes[i], coupling.weights()[i], 0.0, coupling.arms()[i]});
+    if (kind(i) == 0) ++owned_;
+    if (kind(i) <= 1) ++computed_;
+    for (int c = 0; c < 3; ++c) reach_ = std::max(reach_, std::abs(nodes_.back().arm[c]));
+  }
+  change_.resize(computed_);
   take_inertia(inverse_mass);
 }
 
@@ -27,7 +99,8 @@ void ExplicitCloud::take_inertia(const std::vector<double>& inverse_mass) {
   mobility_ = 0.0;
   first_ = {};
   second_ = {};
-  for (auto& each : nodes_) {
+  for (const auto i : in_order_) {
+    auto& each = nodes_[i];
     each.inverse_mass = inverse_mass[each.node];
     const double share = each.weight * each.weight * each.inverse_mass;
     mobility_ += share;
@@ -42,24 +115,27 @@ bool ExplicitCloud::has(std::int32_t node) const {
 
 double ExplicitCloud::inverse_mass(std::int32_t node) const { return std::ranges::find(nodes_, node, &Node::node)->inverse_mass; }
 
-void ExplicitCloud::find_places(const double* position, const Vector3<double>& origin) {
-  places_ = {};
-  for (const auto& each : nodes_) {
-    const auto x = row(position, each.node);
-    places_.center = places_.center + each.weight * x;
-    add_dyad(places_.spread, each.weight * each.arm, x - origin);
+void ExplicitCloud::sum(Share share, const Motion& motion, const Vector3<double>& reference, const Largest& largest) {
+  MomentSums places(largest.place, nodes_.size()), rates(largest.rate, nodes_.size());
+  const Four origin([&](auto lane) { return lane < 3 ? reference[lane] : 0.0; });
+  const double inverse_reach = reach_ > 0.0 ? 1.0 / reach_ : 0.0;
+  const std::size_t count = share == Share::owned ? owned_ : nodes_.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const auto& each = share == Share::owned ? nodes_[i] : nodes_[in_order_[i]];
+    const auto arm = inverse_reach * each.arm;
+    places.add(four(motion.position, each.node) - origin, each.weight, arm);
+    Four rate = 0.0;
+    if (motion.velocity != nullptr) rate = four(motion.velocity, each.node);
+    if (motion.force != nullptr) rate += (motion.average * each.inverse_mass) * four(motion.force, each.node);
+    rates.add(rate, each.weight, arm);
   }
+  rates.put(places.put(sums_.data()));
 }
 
-void ExplicitCloud::find_velocities(const double* velocity, const double* force, double average) {
-  velocities_ = {};
-  for (const auto& each : nodes_) {
-    Vector3<double> v{};
-    if (velocity != nullptr) v = row(velocity, each.node);
-    if (force != nullptr) v = v + average * each.inverse_mass * row(force, each.node);
-    velocities_.center = velocities_.center + each.weight * v;
-    add_dyad(velocities_.spread, each.weight * each.arm, v);
-  }
+void ExplicitCloud::take_sums(const Vector3<double>& reference) {
+  places_ = moments_of(sums_.data(), reach_);
+  places_.center = reference + places_.center;
+  velocities_ = moments_of(sums_.data() + sum_count / 2, reach_);
 }
 
 CloudMoments ExplicitCloud::places_after(double next, double average, const Matrix3<double>& rotation, const Vector6& multipliers) const {
@@ -102,7 +178,7 @@ Vector3<double> ExplicitCloud::constraint_force(const Node& node, const Matrix3<
 }
 
 void ExplicitCloud::find_changes(const double* force, double average, const Matrix3<double>& rotation, const Vector6& multipliers) {
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
+  for (std::size_t i = 0; i < computed_; ++i) {
     auto sum = constraint_force(nodes_[i], rotation, multipliers);
     if (force != nullptr) sum = sum + row(force, nodes_[i].node);
     change_[i] = average * nodes_[i].inverse_mass * sum;
@@ -110,17 +186,17 @@ void ExplicitCloud::find_changes(const double* force, double average, const Matr
 }
 
 void ExplicitCloud::add_changes(double* velocity) const {
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  for (std::size_t i = 0; i < computed_; ++i)
     for (int c = 0; c < 3; ++c) velocity[4 * std::ptrdiff_t{nodes_[i].node} + c] += change_[i][c];
 }
 
 void ExplicitCloud::set_accelerations(double average, double* acceleration) const {
-  for (std::size_t i = 0; i < nodes_.size(); ++i)
+  for (std::size_t i = 0; i < computed_; ++i)
     for (int c = 0; c < 3; ++c) acceleration[4 * std::ptrdiff_t{nodes_[i].node} + c] = change_[i][c] / average;
 }
 
 void ExplicitCloud::add_constraint_forces(const Matrix3<double>& rotation, const Vector6& multipliers, double* force) const {
-  for (const auto& each : nodes_) {
+  for (const auto& each : computed()) {
     const auto addend = constraint_force(each, rotation, multipliers);
     for (int c = 0; c < 3; ++c) force[4 * std::ptrdiff_t{each.node} + c] += addend[c];
   }

@@ -13,21 +13,40 @@ namespace balocco {
 ExplicitLinkages::ExplicitLinkages(Analysis& analysis, const Step& step, const NodalConstraints& translations,
                                    const NodalConstraints& rotations, GyroscopicNodes& gyroscopic, RigidDynamics& bodies,
                                    InverseInertia& inverse)
-    : step_(step), translations_(translations), rotations_(rotations), gyroscopic_(gyroscopic), bodies_(bodies), guides_(analysis, step), inverse_(inverse) {
+    : step_(step), size_(model_size(analysis.model)), translations_(translations), rotations_(rotations), gyroscopic_(gyroscopic), bodies_(bodies), guides_(analysis, step), inverse_(inverse) {
   moves_.assign(static_cast<std::size_t>(analysis.domain.size()), false);
+  in_cloud_ = moves_;
   turns_.assign(static_cast<std::size_t>(analysis.domain.turning), false);
   if (analysis.current.increment == 0) analysis.current.implied_rows.clear();
   for (const auto& linkage : find_linkages(analysis.model)) {
     if (!std::ranges::binary_search(analysis.local_constraints, linkage.constraints.front())) continue;
     if (!clusters_.take(analysis, linkage, {translations, rotations, gyroscopic})) add_system(analysis, linkage);
   }
+  clusters_.line_up();
   for (const auto& system : systems_) take_over(system, inverse);
   take_over_clusters(inverse);
+  share_clouds(analysis);
+}
+
+void ExplicitLinkages::share_clouds(const Analysis& analysis) {
+  std::vector<double> ranks(analysis.constraints.size(), 0.0);  // that know a cloud, by constraint
+  for (const auto& system : systems_)
+    for (const auto& member : system.members)
+      if (member.cloud) ranks[member.constraint] = 1.0;
+  analysis.communicator.sum(std::span<double>(ranks));
+  std::vector<std::ptrdiff_t> place(ranks.size(), -1);
+  for (std::size_t constraint = 0; constraint < ranks.size(); ++constraint)
+    if (ranks[constraint] > 1.0) {
+      place[constraint] = static_cast<std::ptrdiff_t>(shared_sums_.size());
+      shared_sums_.resize(shared_sums_.size() + ExplicitCloud::sum_count);
+    }
+  for (auto& system : systems_)
+    for (auto& member : system.members)
+      if (member.cloud) member.shared_sums = place[member.constraint];
 }
 
 void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
   auto& system = systems_.emplace_back();
-  system.size = model_size(analysis.model);
   Uses uses;
   for (const auto index : linkage.constraints)
     for (const auto row : analysis.constraints[index]->nodes()) ++uses[row];
@@ -39,7 +58,10 @@ void ExplicitLinkages::add_system(Analysis& analysis, const Linkage& linkage) {
     system.has_guides = system.has_guides || member.is_guide;
     member.coupling = dynamic_cast<const DistributingConstraint*>(&constraint);
     member.cloud = cloud_of(analysis, member.coupling, uses);
-    if (member.cloud) member.components = member.coupling->components();
+    if (member.cloud) {
+      member.components = member.coupling->components();
+      sum_whole_cloud(analysis, member);
+    }
     for (std::size_t i = 0; i < (member.cloud ? 1 : constraint.nodes().size()); ++i)
       member.nodes.push_back(use_of(analysis, system, constraint.nodes()[i], constraint.turns(static_cast<int>(i))));
     const bool by_bodies = std::ranges::any_of(member.nodes, [&](const NodeUse& use) {
@@ -71,7 +93,15 @@ std::optional<ExplicitCloud> ExplicitLinkages::cloud_of(const Analysis& analysis
     if (!alone || !(inverse_.mass[node] > 0.0)) return std::nullopt;
     nodes.push_back(node);
   }
-  return ExplicitCloud(*coupling, nodes, inverse_.mass);
+  return ExplicitCloud(*coupling, nodes, analysis.domain, inverse_.mass);
+}
+
+void ExplicitLinkages::sum_whole_cloud(const Analysis& analysis, Member& member) const {
+  const auto& state = analysis.current;
+  const auto reference = analysis.place_of(member.coupling->nodes().front()).position;
+  const ExplicitCloud::Motion motion{.position = state.position.data(), .velocity = state.velocity.data(), .force = nullptr};
+  member.cloud->sum(ExplicitCloud::Share::whole, motion, reference, {.place = size_, .rate = size_ / analysis.undeformed_increment});
+  member.cloud->take_sums(reference);
 }
 
 std::int32_t ExplicitLinkages::mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index) {
@@ -198,7 +228,7 @@ void ExplicitLinkages::find_implied_rows(Analysis& analysis, System& system) con
         const bool of_node = mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation;
         const auto length = [&](int component) {  // turns angles into lengths
           const bool angle = mover.kind == Mover::Kind::body ? component >= 3 : mover.kind != Mover::Kind::translation;
-          return angle ? 1.0 / system.size : 1.0;
+          return angle ? 1.0 / size_ : 1.0;
         };
         // Along the directions in which the mover is free; those of bodies and tensors by what they answer to.
         for (std::size_t d = 0; of_node && d < mover.directions.size(); ++d) {
@@ -306,7 +336,7 @@ void ExplicitLinkages::take_over(const System& system, InverseInertia& inverse) 
     if (member.cloud)
       member.cloud->for_each_node([&](std::int32_t node) {
         inverse.mass[node] = 0.0;
-        moves_[node] = true;
+        moves_[node] = in_cloud_[node] = true;
       });
   for (const auto& mover : system.movers) {
     if (mover.kind == Mover::Kind::translation) {

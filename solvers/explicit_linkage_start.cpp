@@ -38,7 +38,7 @@ void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
       mover.constraint_force = {};
     }
     for (auto& member : system.members)
-      if (member.cloud) member.cloud->find_velocities(state.velocity.data(), nullptr, 1.0);
+      if (member.cloud) sum_whole_cloud(analysis, member);
     find_residual(analysis, system, 0.0);
     correct(system);
     find_constraint_forces(system);
@@ -58,6 +58,8 @@ void ExplicitLinkages::make_velocities_consistent(Analysis& analysis) {
 }
 
 void ExplicitLinkages::add_resting_forces(const Analysis& analysis, const NodalForces& forces) {
+  const double least = analysis.undeformed_increment;
+  sum_clouds(analysis, {analysis.current.position.data(), nullptr, forces.force, 1.0}, size_ / (least * least));
   for (auto& system : systems_) {
     find_places(analysis, system);
     find_gradient(analysis, system);
@@ -75,8 +77,6 @@ void ExplicitLinkages::add_resting_forces(const Analysis& analysis, const NodalF
         std::copy_n((mover.kind == Mover::Kind::translation ? forces.force : forces.moment) + at, 3, mover.load.component.begin());
       mover.velocity = mover.response * mover.load;  // accelerations, of nodes at rest
     }
-    for (auto& member : system.members)
-      if (member.cloud) member.cloud->find_velocities(nullptr, forces.force, 1.0);
     find_residual(analysis, system, 0.0, true);
     correct(system);
     find_constraint_forces(system);

@@ -37,6 +37,8 @@ double relative_change(const Matrix3<double>& before, const Matrix3<double>& aft
 constexpr int most_iterations = 8, most_passes = 16;
 /// Relative to the size of the model: what iterations must not leave.
 constexpr double largest_gap = 1e-3;
+/// Likewise: farther from its reference node no part of a cloud is, nor moves in an increment.
+constexpr double farthest = 16.0;
 
 }  // namespace
 
@@ -44,7 +46,6 @@ void ExplicitLinkages::find_places(const Analysis& analysis, System& system) con
   for (auto& member : system.members) {
     if (member.cloud) {
       member.places.assign(1, analysis.place_of(member.coupling->nodes().front()));
-      member.cloud->find_places(analysis.current.position.data(), member.places.front().position);
     } else {
       analysis.find_places(member.constraint, member.places);
     }
@@ -52,6 +53,23 @@ void ExplicitLinkages::find_places(const Analysis& analysis, System& system) con
       if (use.carried)
         use.arm = rotation_matrix(analysis.current.rigid_bodies[system.movers[use.translation].index]) * Vector3<double>{use.offset};
   }
+}
+
+void ExplicitLinkages::sum_clouds(const Analysis& analysis, const ExplicitCloud::Motion& motion, double fastest) {
+  const auto for_each_cloud = [&](auto visit) {
+    for (auto& system : systems_)
+      for (auto& member : system.members)
+        if (member.cloud) visit(system, member, analysis.place_of(member.coupling->nodes().front()).position);
+  };
+  for_each_cloud([&](const System& system, Member& member, const Vector3<double>& reference) {
+    member.cloud->sum(ExplicitCloud::Share::owned, motion, reference, {.place = farthest * size_, .rate = fastest});
+    if (member.shared_sums >= 0) std::ranges::copy(member.cloud->sums(), shared_sums_.begin() + member.shared_sums);
+  });
+  if (!shared_sums_.empty()) analysis.communicator.sum(std::span<double>(shared_sums_));
+  for_each_cloud([&](const System&, Member& member, const Vector3<double>& reference) {
+    if (member.shared_sums >= 0) std::copy_n(shared_sums_.begin() + member.shared_sums, ExplicitCloud::sum_count, member.cloud->sums().begin());
+    member.cloud->take_sums(reference);
+  });
 }
 
 void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) const {
@@ -114,8 +132,6 @@ void ExplicitLinkages::find_base(const Analysis& analysis, System& system, const
             direction);
     for (const auto* condition : mover.conditions) add_along(mover.base, condition->new_velocity, condition->direction);
   }
-  for (auto& member : system.members)
-    if (member.cloud) member.cloud->find_velocities(state.velocity.data(), forces.force, instant.average());
 }
 
 void ExplicitLinkages::find_node_velocity(System& system, Mover& mover, double average) const {
@@ -189,7 +205,7 @@ void ExplicitLinkages::find_gaps(const Analysis& analysis, System& system, const
   gaps_.resize(static_cast<std::size_t>(constraint.rows()));
   if (!member.cloud) {
     constraint.gaps(places_, gaps_);
-    system.largest_turn = std::max(system.largest_turn, turn_of_lines(member.places, places_, apart * system.size));
+    system.largest_turn = std::max(system.largest_turn, turn_of_lines(member.places, places_, apart * size_));
     return;
   }
   const auto before = member.cloud->places();
@@ -245,12 +261,12 @@ double ExplicitLinkages::solve(Analysis& analysis, System& system, const Instant
     find_velocities(analysis, system, instant);
     const double before = gap;
     gap = find_residual(analysis, system, instant.next);
-    const bool resolved = gap <= resolution * system.size || (iteration > 1 && !(gap <= 0.5 * before));
+    const bool resolved = gap <= resolution * size_ || (iteration > 1 && !(gap <= 0.5 * before));
     if (iteration > 0 && (instant.next == 0.0 || resolved)) break;
     correct(system);
     // The matrix is that of the start of the increment: a correction leaves as much of a gap as gradients change until its end.
     constexpr double safety = 10.0;
-    if (system.has_guides || instant.next == 0.0 || !(safety * system.largest_turn * gap <= resolution * system.size)) continue;
+    if (system.has_guides || instant.next == 0.0 || !(safety * system.largest_turn * gap <= resolution * size_)) continue;
     find_constraint_forces(system);
     for (auto& mover : system.movers)
       if (mover.kind == Mover::Kind::translation || mover.kind == Mover::Kind::rotation) find_node_velocity(system, mover, instant.average());
@@ -263,6 +279,9 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
   guides_.begin_increment(analysis);
   guides_.aim(analysis, instant);
   guides_.guess(analysis);
+  const auto& state = analysis.current;
+  const double average = instant.average();
+  sum_clouds(analysis, {state.position.data(), state.velocity.data(), forces.force, average}, farthest * size_ / average);
   for (auto& system : systems_) {
     find_places(analysis, system);
     take_guides(analysis, system);
@@ -280,7 +299,7 @@ void ExplicitLinkages::find_motion(Analysis& analysis, const Instant& instant, c
       factorize(analysis, system, instant.average());
       gap = solve(analysis, system, instant);
     }
-    if (!(gap <= largest_gap * system.size)) report_apart(analysis, system, gap);
+    if (!(gap <= largest_gap * size_)) report_apart(analysis, system, gap);
     for (const auto& member : system.members)
       for (std::size_t i = 0; i < member.rows.size(); ++i)
         analysis.current.multiplier[analysis.first_constraint_row[member.constraint] + member.rows[i]] = -system.solution[member.first_row + i];

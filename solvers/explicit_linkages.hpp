@@ -33,10 +33,13 @@ class ExplicitLinkages {
   ExplicitLinkages(Analysis& analysis, const Step& step, const NodalConstraints& translations, const NodalConstraints& rotations,
                    GyroscopicNodes& gyroscopic, RigidDynamics& bodies, InverseInertia& inverse);
 
-  bool empty() const { return systems_.empty() && clusters_.empty(); }
+  /// Of all ranks, whose clouds are summed together.
+  bool empty() const { return systems_.empty() && clusters_.empty() && shared_sums_.empty(); }
   /// Whether a linkage moves (turns) a local node.
   bool moves(std::int32_t node) const { return moves_[node]; }
   bool turns(std::int32_t node) const { return node < static_cast<std::int32_t>(turns_.size()) && turns_[node]; }
+  /// Whether a local node is in a cloud, so that ranks that do not compute it need not know how it moves.
+  bool in_cloud(std::int32_t node) const { return in_cloud_[node]; }
   /// What the nodes had before.
   const InverseInertia& inverse() const { return inverse_; }
   /// Bound of the acceleration per force, where the constraints let a node move (turn) that they move.
@@ -108,6 +111,7 @@ class ExplicitLinkages {
     bool is_guide = false;
     const DistributingConstraint* coupling = nullptr;  // whose cloud stands aside:
     std::optional<ExplicitCloud> cloud;
+    std::ptrdiff_t shared_sums = -1;                   // its place among those that ranks add up
     std::vector<int> components;                       // of the coupling's rows
     std::vector<NodeUse> nodes;                        // all, or the reference node alone
     std::vector<int> rows;  // of the constraint that are solved for
@@ -129,7 +133,6 @@ class ExplicitLinkages {
     std::int32_t hub = -1;
     bool is_linear = true;       // the gradient is the same everywhere
     bool has_guides = false;
-    double size = 0.0;           // diagonal of the box around the model, which its positions are as exact as
     double average = 0.0;        // increment over which forces act
     BlockSolver blocks;          // a block a member, and one of the hub
     bool pivots = false;         // massless directions move, or blocks fail: one of the next two is used
@@ -156,6 +159,10 @@ class ExplicitLinkages {
   void add_system(Analysis& analysis, const Linkage& linkage);
   using Uses = std::map<std::int32_t, int>;  // in how many constraints of a linkage a node is
   std::optional<ExplicitCloud> cloud_of(const Analysis& analysis, const DistributingConstraint* coupling, const Uses& uses) const;
+  /// Of a cloud alone, as when a step begins and every rank knows all places and velocities.
+  void sum_whole_cloud(const Analysis& analysis, Member& member) const;
+  /// Gives the clouds that several ranks know a place among the sums that they add up. Collective.
+  void share_clouds(const Analysis& analysis);
   std::int32_t mover_of(const Analysis& analysis, System& system, Mover::Kind kind, std::int32_t index);
   NodeUse use_of(const Analysis& analysis, System& system, std::int32_t row, bool turns);
   void find_freedoms(const Analysis& analysis, Mover& mover) const;
@@ -170,7 +177,10 @@ class ExplicitLinkages {
   void take_over(const System& system, InverseInertia& inverse);
   void take_over_clusters(InverseInertia& inverse);
 
+  /// Of all but clouds.
   void find_places(const Analysis& analysis, System& system) const;
+  /// Of all clouds, by all ranks together. `fastest` is what no rate exceeds.
+  void sum_clouds(const Analysis& analysis, const ExplicitCloud::Motion& motion, double fastest);
   void find_gradient(const Analysis& analysis, System& system) const;
   void find_answers(System& system, double average) const;
   void find_responses(const Analysis& analysis, System& system) const;
@@ -207,13 +217,15 @@ class ExplicitLinkages {
   NodePlace place_after(const Analysis& analysis, const System& system, const Member& member, std::size_t node, double next) const;
 
   const Step& step_;
+  double size_ = 0.0;  // diagonal of the box around the model, which positions are as exact as
   const NodalConstraints &translations_, &rotations_;
   GyroscopicNodes& gyroscopic_;
   RigidDynamics& bodies_;
   GuideLaws guides_;
   RigidClusters clusters_;  // simple linkages, solved in closed form
   std::vector<System> systems_;
-  std::vector<bool> moves_, turns_;
+  std::vector<double> shared_sums_;  // of clouds
+  std::vector<bool> moves_, turns_, in_cloud_;
   InverseInertia inverse_;
   mutable std::vector<NodePlace> places_;          // scratch
   mutable std::vector<double> gaps_, gradient_;    // scratch

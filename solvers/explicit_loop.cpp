@@ -60,6 +60,7 @@ Outcome run_explicit_step(Analysis& analysis, const Step& step, Observer& observ
     cycle.update_velocities();
     if (!cycle.observe()) return Outcome::stopped;
   }
+  cycle.bring_idle_copies();
   cycle.log_deleted_elements();
   if (!cycle.fixed_masses()) cycle.log_mass_scaling();
   cycle.log_timers();

@@ -55,12 +55,17 @@ bool is_rigid_arm(const ConstraintDefinition& definition, const Constraint& cons
 
 bool RigidClusters::take(const Analysis& analysis, const Linkage& linkage, const Beside& beside) {
   Cluster cluster;
-  if (linkage.has_bodies || !lists_ends(analysis, linkage, beside, cluster) || !takes_inertia(analysis, cluster)) return false;
+  std::vector<End> ends;
+  if (linkage.has_bodies || !lists_ends(analysis, linkage, beside, ends, cluster.arms)) return false;
+  cluster.ends = ends;
+  if (!takes_inertia(analysis, cluster)) return false;
   clusters_.push_back(std::move(cluster));
+  taken_.push_back(std::move(ends));  // where the cluster still finds them
   return true;
 }
 
-bool RigidClusters::lists_ends(const Analysis& analysis, const Linkage& linkage, const Beside& beside, Cluster& cluster) {
+bool RigidClusters::lists_ends(const Analysis& analysis, const Linkage& linkage, const Beside& beside, std::vector<End>& ends,
+                               std::vector<Arm>& arms) {
   if (linkage.nodes.size() != linkage.constraints.size() + 1) return false;
   for (const auto index : linkage.constraints)
     if (!is_rigid_arm(analysis.model.constraints[index], *analysis.constraints[index])) return false;
@@ -71,11 +76,11 @@ bool RigidClusters::lists_ends(const Analysis& analysis, const Linkage& linkage,
   }
   const auto end_of = [&](std::int32_t row) {
     const auto node = analysis.domain.local_node[row];
-    return static_cast<std::int32_t>(std::ranges::find(cluster.ends, node, &End::node) - cluster.ends.begin());
+    return static_cast<std::int32_t>(std::ranges::find(ends, node, &End::node) - ends.begin());
   };
-  const auto is_known = [&](std::int32_t end) { return end < static_cast<std::int32_t>(cluster.ends.size()); };
+  const auto is_known = [&](std::int32_t end) { return end < static_cast<std::int32_t>(ends.size()); };
   const auto first = analysis.constraints[linkage.constraints.front()]->nodes()[0];
-  cluster.ends.push_back({.node = analysis.domain.local_node[first], .turns = true});
+  ends.push_back({.node = analysis.domain.local_node[first], .turns = true});
   for (auto rest = linkage.constraints; !rest.empty();) {
     const auto next = std::ranges::find_if(rest, [&](std::int32_t index) {
       const auto& nodes = analysis.constraints[index]->nodes();
@@ -84,10 +89,10 @@ bool RigidClusters::lists_ends(const Analysis& analysis, const Linkage& linkage,
     const auto& constraint = *analysis.constraints[*next];
     const bool outer_is_second = is_known(end_of(constraint.nodes()[0]));
     const auto inner = end_of(constraint.nodes()[outer_is_second ? 0 : 1]);
-    if (!cluster.ends[inner].turns || !constraint.turns(outer_is_second ? 0 : 1)) return false;
-    cluster.arms.push_back({*next, inner, static_cast<std::int32_t>(cluster.ends.size()), outer_is_second});
+    if (!ends[inner].turns || !constraint.turns(outer_is_second ? 0 : 1)) return false;
+    arms.push_back({*next, inner, static_cast<std::int32_t>(ends.size()), outer_is_second});
     const bool turns = constraint.turns(outer_is_second ? 1 : 0);
-    cluster.ends.push_back({.node = analysis.domain.local_node[constraint.nodes()[outer_is_second ? 1 : 0]], .turns = turns});
+    ends.push_back({.node = analysis.domain.local_node[constraint.nodes()[outer_is_second ? 1 : 0]], .turns = turns});
     rest.erase(next);
   }
   return true;
@@ -145,6 +150,29 @@ double RigidClusters::mobility(std::int32_t node, bool rotation) const {
   if (rotation) return trace(cluster->mobility);
   const auto& arm = std::ranges::find(cluster->ends, node, &End::node)->offset;
   return 1.0 / cluster->mass + dot(arm, arm) * trace(cluster->mobility);
+}
+
+void RigidClusters::line_up() {
+  std::ranges::stable_sort(clusters_, {}, [](const Cluster& cluster) { return cluster.ends.front().node; });
+  std::size_t count = 0;
+  for (const auto& cluster : clusters_) count += cluster.ends.size();
+  ends_.reserve(count);
+  for (auto& cluster : clusters_) {
+    ends_.insert(ends_.end(), cluster.ends.begin(), cluster.ends.end());
+    cluster.ends = std::span(ends_).last(cluster.ends.size());
+  }
+  taken_.clear();
+}
+
+void RigidClusters::ask_for_state(const Analysis& analysis, const NodalForces& forces, const Cluster& cluster) {
+  const auto& state = analysis.current;
+  for (const auto& end : cluster.ends) {
+    const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(end.node);
+    for (const double* nodal : {state.position.data(), state.velocity.data(), static_cast<const double*>(forces.force)}) __builtin_prefetch(nodal + at, 1);
+    if (!end.turns) continue;
+    for (const double* nodal : {state.orientation.data(), state.angular_velocity.data(), static_cast<const double*>(forces.moment)})
+      __builtin_prefetch(nodal + at, 1);
+  }
 }
 
 void RigidClusters::read_state(const Analysis& analysis, Cluster& cluster) {
@@ -270,7 +298,10 @@ void RigidClusters::add_resting_forces(const Analysis& analysis, const NodalForc
 }
 
 void RigidClusters::find_motion(Analysis& analysis, const Instant& instant, const NodalForces& forces) {
-  for (auto& cluster : clusters_) {
+  constexpr std::size_t ahead = 4;
+  for (std::size_t i = 0; i < clusters_.size(); ++i) {
+    if (i + ahead < clusters_.size()) ask_for_state(analysis, forces, clusters_[i + ahead]);
+    auto& cluster = clusters_[i];
     read_state(analysis, cluster);
     read_loads(forces, cluster);
     cluster.average = instant.average();

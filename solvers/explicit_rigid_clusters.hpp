@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "analysis.hpp"
@@ -23,6 +24,8 @@ class RigidClusters {
 
   /// Takes over a linkage that is a tree of rigid arms between nodes that nothing else moves. @return false: it is not.
   bool take(const Analysis& analysis, const Linkage& linkage, const Beside& beside);
+  /// When all are taken: ends, and the nodes of clusters that follow each other, come one after the other in memory.
+  void line_up();
   bool empty() const { return clusters_.empty(); }
   void renew_inertia(const Analysis& analysis);
   template <class Visit>
@@ -61,7 +64,7 @@ class RigidClusters {
     bool outer_is_second = true;          // of the joint
   };
   struct Cluster {
-    std::vector<End> ends;  // the first one turns, and its rotation is that of the cluster
+    std::span<End> ends;    // the first one turns, and its rotation is that of the cluster
     std::vector<Arm> arms;  // each behind the one that its inner end hangs on
     double mass = 0.0, rotary = 0.0;
     Matrix3<double> inertia{};   // of the masses, about their centre, at the start
@@ -74,8 +77,10 @@ class RigidClusters {
     Vector3<double> linear, angular;
   };
 
-  static bool lists_ends(const Analysis& analysis, const Linkage& linkage, const Beside& beside, Cluster& cluster);
+  static bool lists_ends(const Analysis& analysis, const Linkage& linkage, const Beside& beside, std::vector<End>& ends, std::vector<Arm>& arms);
   static bool takes_inertia(const Analysis& analysis, Cluster& cluster);
+  /// Of a cluster that comes soon: its nodes lie anywhere.
+  static void ask_for_state(const Analysis& analysis, const NodalForces& forces, const Cluster& cluster);
   static void read_state(const Analysis& analysis, Cluster& cluster);
   static void read_loads(const NodalForces& forces, Cluster& cluster);
   static Momenta momenta(const Cluster& cluster, double average);
@@ -88,6 +93,8 @@ class RigidClusters {
   const Cluster* cluster_of(std::int32_t node, bool rotation) const;
 
   std::vector<Cluster> clusters_;
+  std::vector<End> ends_;                // of all clusters
+  std::vector<std::vector<End>> taken_;  // until they are lined up
 };
 
 }  // namespace balocco

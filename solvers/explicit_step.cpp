@@ -113,6 +113,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
   tell_added_bounds();
   constexpr int most_passes = 4;  // masses change what is added to them
   for (int pass = 0; starts_afresh() && pass < most_passes && mass_scaling_.allow_for_added_bounds(analysis); ++pass) renew_inertia();
+  find_neighbours();
   find_loaded_nodes();
   const auto uses = uses_of_nodes();
   bodies_.rest_nodes(uses);
@@ -122,7 +123,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
     external_force_ = force_;
     external_moment_ = moment_;
   }
-  halo_.emplace(analysis.communicator, analysis.domain.halo->neighbours(), analysis.domain.turning, Halo::Tag::step, has_loads_ ? 2 : 1);
+  halo_.emplace(analysis.communicator, neighbours_, analysis.domain.turning, Halo::Tag::step, has_loads_ ? 2 : 1);
 }
 
 Instant ExplicitStep::instant() const {

@@ -71,6 +71,8 @@ class ExplicitStep {
   /// @throws AnalysisError where it has: blown up, or its energy balance lost.
   bool observe();
   void fill_output();
+  /// Copies of nodes that took no part in the step move to where their owners' are: steps to come may need them. Collective.
+  void bring_idle_copies();
   /// What later energies are compared with.
   void start_energy_balance();
   /// Collective.
@@ -84,6 +86,8 @@ class ExplicitStep {
   Instant instant() const;
   void add_elements(Portion portion);
   void refuse_loads_without_inertia() const;
+  bool is_idle_copy(std::int32_t node) const;
+  void find_neighbours();
   void find_loaded_nodes();
   /// Of any rank.
   RigidDynamics::Uses uses_of_nodes() const;
@@ -148,7 +152,8 @@ class ExplicitStep {
   ThermalStrains thermal_;
   bool temperatures_move_ = false;
   bool has_loads_ = false;  // of any rank
-  std::optional<Halo> halo_;  // of forces, and of external forces where there are loads
+  std::vector<SharedNodes> neighbours_;  // with the nodes at which they need each other's forces
+  std::optional<Halo> halo_;             // of forces, and of external forces where there are loads
 
   std::vector<double> force_, external_force_, damping_force_;  // 4 a node; external, damping: empty where there is none
   // Of nodes that turn; moments as long as forces, so that both have the scratch node in one place, or empty:

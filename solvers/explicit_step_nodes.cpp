@@ -31,6 +31,22 @@ void ExplicitStep::refuse_loads_without_inertia() const {
   }
 }
 
+/// Copies of nodes of a cloud that others compute take no part in the step.
+bool ExplicitStep::is_idle_copy(std::int32_t node) const { return linkages_.in_cloud(node) && !analysis_.domain.computed[node]; }
+
+void ExplicitStep::find_neighbours() {
+  neighbours_ = analysis_.domain.halo->neighbours();
+  for (std::size_t i = 0; i < neighbours_.size(); ++i) {
+    const auto& by_both = analysis_.domain.computed_by_both[i].nodes;
+    auto next = by_both.begin();  // in the same order
+    std::erase_if(neighbours_[i].nodes, [&](std::int32_t node) {
+      const bool computed = next != by_both.end() && *next == node;
+      if (computed) ++next;
+      return !computed && linkages_.in_cloud(node);
+    });
+  }
+}
+
 void ExplicitStep::find_loaded_nodes() {
   std::vector<bool> loaded(static_cast<std::size_t>(analysis_.domain.size()), false);
   for (const auto& load : step_.concentrated_loads)
@@ -47,7 +63,7 @@ void ExplicitStep::find_loaded_nodes() {
   }
   has_loads_ = !step_.concentrated_loads.empty() || !step_.surface_loads.empty() || !step_.body_loads.empty();
   if (has_loads_)  // what another rank loads arrives through the halo
-    for (const auto& neighbour : analysis_.domain.halo->neighbours())
+    for (const auto& neighbour : neighbours_)
       for (const auto node : neighbour.nodes) loaded[node] = true;
   for (std::size_t node = 0; node < loaded.size(); ++node)
     if (loaded[node]) loaded_nodes_.push_back(static_cast<std::int32_t>(node));
@@ -62,7 +78,7 @@ RigidDynamics::Uses ExplicitStep::uses_of_nodes() const {
     for (const auto node : nodes) uses.pushed[node] = true;
   };
   push(loaded_nodes_);
-  for (const auto& neighbour : domain.halo->neighbours()) push(neighbour.nodes);  // what another rank does there
+  for (const auto& neighbour : neighbours_) push(neighbour.nodes);  // what another rank does there
   for (const auto& group : analysis_.element_groups)
     for (std::int32_t element = 0; element < group->size(); ++element)
       if (group->acts(element)) push(group->nodes(element));
@@ -93,17 +109,28 @@ void ExplicitStep::renew_restraints() {
   set_rounding_constants();
 }
 
-/// All but those that only follow a body and that nothing pushes: they have no forces, and their places when somebody looks.
+/// All but idle copies and those that only follow a body and that nothing pushes: they have no forces, and their places when somebody looks.
 void ExplicitStep::list_acting_nodes(const RigidDynamics::Uses& uses) {
-  const auto acts = [&](std::int32_t node) { return analysis_.carrier(node) < 0 || uses.pushed[node] || uses.asked[node]; };
+  const auto acts = [&](std::int32_t node) {
+    return (analysis_.carrier(node) < 0 || uses.pushed[node] || uses.asked[node]) && !is_idle_copy(node);
+  };
   acting_ = find_runs(analysis_.domain.size(), acts);
   acting_turning_ = find_runs(analysis_.domain.turning, acts);
 }
 
-/// Nodes that turn, but for those that have their orientation from a body.
+/// Nodes that turn, but for idle copies and those that have their orientation from a body.
 void ExplicitStep::list_drifting_nodes() {
   const auto oriented = bodies_.orients();
-  drifting_ = find_runs(analysis_.domain.turning, [&](std::int32_t node) { return oriented.empty() || !oriented[node]; });
+  drifting_ = find_runs(analysis_.domain.turning, [&](std::int32_t node) {
+    return (oriented.empty() || !oriented[node]) && !is_idle_copy(node);
+  });
+}
+
+void ExplicitStep::bring_idle_copies() {
+  auto& state = analysis_.current;
+  for (auto* field : {&state.position, &state.velocity, &analysis_.acceleration, &state.orientation, &state.rotation, &state.angular_velocity,
+                      &analysis_.angular_acceleration})
+    copy_from_owners(analysis_.communicator, analysis_.domain.halo->neighbours(), analysis_.domain.owned, *field);
 }
 
 }  // namespace balocco

@@ -7,6 +7,6 @@ verification_cases(rigid_part 120 carousel thrown_plate carried_inertia plates_m
 verification_cases(import 120 driving_from_an_equilibrium importing_parts importing_the_mesh updating_the_reference updating_bodies importing_copies bodies_keep_their_nodes)
 verification_cases(linkage 120 heavy_top blown_flaps thrown_crank loaded_crank joined_instances)
 verification_cases(multi_point 120 revolute_angle universal_angles rigid_chains)
-verification_cases(shared_coupling 120 with_each_other with_ties with_bodies by_nodes)
+verification_cases(shared_coupling 120 with_each_other with_ties with_bodies by_nodes opened_cloud)
 verification_cases(weld 120 closed_section tied_sheets tumbling_star sheets_thrown reach)
 verification_cases(weld 240 stacked_sheets)

@@ -213,5 +213,26 @@ def by_nodes(run):
         check(f"{variable} on two ranks", np.abs(u - on_two).max(), 0.0, 0.0)
 
 
+# One node of a cloud is held from here on, so that nodes of the cloud are looked at one by one, by every rank.
+HELD = """*STEP, NLGEOM
+*DYNAMIC, EXPLICIT, DIRECT USER CONTROL
+2e-6, 1e-3
+*BOUNDARY, TYPE=VELOCITY
+1, 1, 3, 0.
+*OUTPUT, FIELD, NUMBER INTERVAL=1, PRECISION=DOUBLE
+*NODE OUTPUT
+U, V, A
+*END STEP
+"""
+
+
+def opened_cloud(run):
+    """Ranks that do not compute nodes of a cloud need not know how they move, until a later step makes them look."""
+    one, *others = (run(thrown_sheet() + HELD, ranks) for ranks in (1, 2, 3))
+    for other in others:
+        for variable in ("U", "V", "A"):
+            check(f"{variable} on {other.ranks}", np.abs(one.frame(variable, -1) - other.frame(variable, -1)).max(), 0.0, 0.0)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (with_each_other, with_ties, with_bodies, by_nodes)})
+    run_case({case.__name__: case for case in (with_each_other, with_ties, with_bodies, by_nodes, opened_cloud)})

@@ -208,7 +208,7 @@ const RegisterElement b31({.name = "B31",
                            .turns = true,
                            .section = Section::Kind::beam,
                            .faces = {},
-                           .cycle_cost = 40,
+                           .cycle_cost = 32,
                            .make_group = [](const GroupInput& input) -> std::unique_ptr<ElementGroup> {
                              return std::make_unique<BeamGroup>(input);
                            }});

@@ -230,7 +230,7 @@ const RegisterElement m3d4({.name = "M3D4",
                             .integration_points = 4,
                             .section = Section::Kind::membrane,
                             .faces = {{0, 1, 2, 3}, {3, 2, 1, 0}},
-                            .cycle_cost = 190,
+                            .cycle_cost = 120,
                             .make_group = make_membrane<4, 4>});
 const RegisterElement m3d4r({.name = "M3D4R",
                              .shape = Shape::quadrilateral,
@@ -238,7 +238,7 @@ const RegisterElement m3d4r({.name = "M3D4R",
                              .integration_points = 1,
                              .section = Section::Kind::membrane,
                              .faces = {{0, 1, 2, 3}, {3, 2, 1, 0}},
-                             .cycle_cost = 83,
+                             .cycle_cost = 65,
                              .make_group = make_membrane<4, 1>});
 const RegisterElement m3d3({.name = "M3D3",
                             .shape = Shape::triangle,
@@ -246,7 +246,7 @@ const RegisterElement m3d3({.name = "M3D3",
                             .integration_points = 1,
                             .section = Section::Kind::membrane,
                             .faces = {{0, 1, 2}, {2, 1, 0}},
-                            .cycle_cost = 63,
+                            .cycle_cost = 40,
                             .make_group = make_membrane<3, 1>});
 
 }  // namespace

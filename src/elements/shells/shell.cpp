@@ -357,11 +357,11 @@ ElementType triangle(const char* name) {
           .turns = true,
           .section = Section::Kind::shell,
           .faces = {{0, 1, 2}, {2, 1, 0}},
-          .cycle_cost = 120,
+          .cycle_cost = 90,
           .make_group = make_shell<3, 1>};
 }
 
-const RegisterElement s4(quadrilateral("S4", 4, 600, make_shell<4, 4>));
+const RegisterElement s4(quadrilateral("S4", 4, 300, make_shell<4, 4>));
 const RegisterElement s4r(quadrilateral("S4R", 1, 175, make_shell<4, 1>));
 const RegisterElement s3r(triangle("S3R"));
 const RegisterElement s3(triangle("S3"));

@@ -18,7 +18,7 @@ const RegisterElement registered({.name = "C3D8",
                                   .integration_points = HexahedronShape::points,
                                   .section = Section::Kind::solid,
                                   .faces = hexahedron_faces(),
-                                  .cycle_cost = 470,
+                                  .cycle_cost = 290,
                                   .make_group = make_group,
                                   .point_shapes = point_shapes<TrilinearValues>});
 

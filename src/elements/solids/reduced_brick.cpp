@@ -24,7 +24,7 @@ const RegisterElement registered({.name = "C3D8R",
                                   .integration_points = 1,
                                   .section = Section::Kind::solid,
                                   .faces = hexahedron_faces(),
-                                  .cycle_cost = 67,
+                                  .cycle_cost = 50,
                                   .make_group = make_group,
                                   .point_shapes = [](int, std::span<double> values) { std::ranges::fill(values, 0.125); }});
 

@@ -16,7 +16,7 @@ const RegisterElement registered({.name = "C3D6",
                                   .integration_points = WedgeShape::points,
                                   .section = Section::Kind::solid,
                                   .faces = wedge_faces(),
-                                  .cycle_cost = 275,
+                                  .cycle_cost = 190,
                                   .make_group = make_group,
                                   .point_shapes = point_shapes<WedgeValues>});
 

@@ -476,9 +476,9 @@ TEST(ModelSummary, RunTimeCountsEachTypeWithItsOwnCost) {
                            "*ELEMENT, TYPE=C3D8, ELSET=FULL\n2, 1, 2, 3, 4, 5, 6, 7, 8\n*SOLID SECTION, ELSET=FULL, "
                            "MATERIAL=STEEL\n*STEP\n*DYNAMIC, EXPLICIT, DIRECT USER CONTROL\n1E-9, 1.\n*END STEP\n";
   const std::string text = summarize(read(deck).model, 2);
-  // A thousand million increments of 67 + 470 ns on two ranks.
-  EXPECT_NE(text.find("about 1e+09 increments, 268 s on 2 ranks"), std::string::npos) << text;
-  EXPECT_NE(text.find("C3D8 470 ns, C3D8R 67 ns"), std::string::npos) << text;
+  // A thousand million increments of 50 + 290 ns on two ranks.
+  EXPECT_NE(text.find("about 1e+09 increments, 170 s on 2 ranks"), std::string::npos) << text;
+  EXPECT_NE(text.find("C3D8 290 ns, C3D8R 50 ns"), std::string::npos) << text;
 }
 
 }  // namespace

@@ -197,6 +197,40 @@ TEST_P(DomainOf, RoundedSumsAreThoseOfOneRankBitForBit) {
   for (std::int32_t node = 0; node < domain.size(); ++node)
     for (int c = 0; c < 3; ++c) EXPECT_EQ(values[4 * node + c], whole[3 * domain.node_row[node] + c]);
 }
+TEST_P(DomainOf, CopiesTakeTheValuesOfTheirOwners) {
+  const auto value = [&](std::int32_t node, int c) { return std::sin(1.0 + domain.node_row[node] + 0.3 * c); };
+  const auto nodes = domain.size() - 1;  // as of nodes that turn: fewer than there are
+  std::vector<double> values(4 * static_cast<std::size_t>(nodes), -1.0);
+  for (std::int32_t node = 0; node < nodes; ++node)
+    for (int c = 0; c < 4 && domain.owned[node]; ++c) values[4 * node + c] = value(node, c);
+  copy_from_owners(communicator, domain.halo->neighbours(), domain.owned, values);
+  for (std::int32_t node = 0; node < nodes; ++node)
+    for (int c = 0; c < 4; ++c) EXPECT_EQ(values[4 * node + c], value(node, c));
+}
+
+/// Every rank knows all nodes of a coupling across the block, but computes those of its elements and what it owns alone.
+TEST_P(DomainOf, TellsNodesItComputesFromThoseItOnlyKnows) {
+  DistributingCoupling coupling;
+  coupling.reference = 0;
+  for (std::int32_t node = 1; node < model.nodes.size() - 2; ++node) coupling.nodes.push_back(node);
+  coupling.weights.assign(coupling.nodes.size(), 1.0);
+  model.constraints.push_back({.kind = coupling, .keyword = "*COUPLING"});
+  domain = make_domain(model, communicator, GetParam().partitioner);
+  std::set<std::int32_t> needed;
+  for (const auto& group : domain.groups) needed.insert(group.connectivity.begin(), group.connectivity.end());
+  std::vector<double> computing(rows(), 0.0), ones(4 * static_cast<std::size_t>(domain.size()), 1.0);
+  for (std::int32_t node = 0; node < domain.size(); ++node) {
+    const bool is_reference = domain.node_row[node] == model.rigid_bodies.front().reference_node;
+    EXPECT_EQ(domain.computed[node], needed.contains(node) || domain.owned[node] || is_reference);
+    if (domain.computed[node]) computing[domain.node_row[node]] += 1.0;
+  }
+  communicator.sum(computing);
+  Halo halo(communicator, domain.computed_by_both, domain.turning, Halo::Tag::step);
+  halo.begin_sum(ones.data());
+  halo.finish_sum(ones.data());
+  for (std::int32_t node = 0; node < domain.size(); ++node)
+    if (domain.computed[node]) EXPECT_EQ(ones[4 * node], computing[domain.node_row[node]]);
+}
 
 INSTANTIATE_TEST_SUITE_P(Partitioners, DomainOf,
                          testing::Values(Case{"metis", metis_partition}, Case{"round_robin", round_robin},
@@ -236,6 +270,18 @@ TEST(ElementGraph, WhatARigidBodyCarriesForGoodHardlyWeighs) {
   model.steps.front().attachments.push_back({.rigid_body = 0, .nodes = {0}, .release = true});
   const auto released = weights();
   for (std::size_t brick = 0; brick < 64; ++brick) EXPECT_EQ(released[brick] > 1, brick >= 32 || brick == 0) << brick;
+}
+
+TEST(ElementGraph, JoinsWhatJointsJoin) {
+  Model model = block(2);
+  const auto neighbours = [&] { return element_graph(model, graph_elements(model)).neighbour.size(); };
+  const auto before = neighbours();
+  model.constraints.push_back({.kind = Joint{.nodes = {0, 26}}, .keyword = "*MPC"});  // opposite corners
+  EXPECT_EQ(neighbours(), before + 4);  // brick to brick and the skin's corner to the other brick, both ways
+  DistributingCoupling wide{.reference = 0};
+  for (std::int32_t node = 1; node < 27; ++node) wide.nodes.push_back(node);
+  model.constraints.push_back({.kind = wide, .keyword = "*COUPLING"});
+  EXPECT_EQ(neighbours(), before + 4) << "clouds join nobody";
 }
 
 TEST(MetisPartition, FewerElementsThanParts) {

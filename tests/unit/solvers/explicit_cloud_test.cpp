@@ -44,18 +44,31 @@ struct Coupled {
   }
 };
 
+const std::vector<std::int32_t> nodes{1, 2, 3, 4, 5, 6, 7};
+
+/// Of a rank that owns every node that `is_owned` says and computes all.
+template <class IsOwned>
+Domain domain_with(IsOwned is_owned) {
+  Domain domain;
+  for (int node = 0; node <= count; ++node) domain.owned.push_back(is_owned(node));
+  domain.computed.assign(count + 1, true);
+  return domain;
+}
+
 class Cloud : public testing::Test {
  protected:
   Coupled coupled;
   DistributingConstraint constraint{coupled.model, coupled.coupling};
-  ExplicitCloud cloud{constraint, {1, 2, 3, 4, 5, 6, 7}, coupled.inverse_mass};
+  ExplicitCloud cloud{constraint, nodes, domain_with([](int) { return true; }), coupled.inverse_mass};
+  const ExplicitCloud::Motion motion{coupled.position.data(), coupled.velocity.data(), coupled.force.data(), 0.02};
+  const ExplicitCloud::Largest largest{.place = 100.0, .rate = 1000.0};
   Matrix3<double> rotation = rotation_matrix(exponential(Vector3<double>{0.1, -0.2, 0.15}));
   std::vector<NodePlace> places = coupled.places(rotation);
   Vector6 multipliers{3.0, -2.0, 1.0, 0.5, 4.0, -1.5};
 
   void SetUp() override {
-    cloud.find_places(coupled.position.data(), places[0].position);
-    cloud.find_velocities(coupled.velocity.data(), coupled.force.data(), 0.02);
+    cloud.sum(ExplicitCloud::Share::owned, motion, places[0].position, largest);
+    cloud.take_sums(places[0].position);
   }
   std::vector<double> gradient() const {
     std::vector<double> gradient(6 * constraint.columns());
@@ -110,6 +123,24 @@ TEST_F(Cloud, RatesAreThoseOfItsVelocities) {
       for (int c = 0; c < 3; ++c) sum += g[row * constraint.columns() + 6 * node + c] * velocity[4 * node + c];
     EXPECT_NEAR(rates[row], sum, 1e-14);
   }
+}
+
+// However ranks share its nodes, sums have the same bits, and those over all nodes in one order have them too.
+TEST_F(Cloud, IsSummedByManyRanksAsByOne) {
+  for (int ranks = 2; ranks <= count; ++ranks) {
+    std::array<double, ExplicitCloud::sum_count> together{};
+    for (int rank = 0; rank < ranks; ++rank) {
+      ExplicitCloud part{constraint, nodes, domain_with([&](int node) { return node % ranks == rank; }), coupled.inverse_mass};
+      part.sum(ExplicitCloud::Share::owned, motion, places[0].position, largest);
+      for (std::size_t i = 0; i < together.size(); ++i) together[i] += part.sums()[i];
+    }
+    for (std::size_t i = 0; i < together.size(); ++i)
+      if (i % 4 != 3) EXPECT_EQ(together[i], cloud.sums()[i]) << i << " on " << ranks;  // vectors of four, the last of which is nothing
+  }
+  const std::vector<double> before(cloud.sums().begin(), cloud.sums().end());
+  cloud.sum(ExplicitCloud::Share::whole, motion, places[0].position, largest);
+  for (std::size_t i = 0; i < before.size(); ++i)
+    if (i % 4 != 3) EXPECT_EQ(before[i], cloud.sums()[i]) << i;
 }
 
 // The gradient that a cloud leaves to the reference node, against differences of the gaps.
