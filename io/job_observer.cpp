@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "checkpoint.hpp"
+#include "kept_checkpoints.hpp"
 #include "model/diagnostics.hpp"
 #include "print_tables.hpp"
 #include "results_file.hpp"
@@ -84,6 +85,7 @@ JobObserver::Implementation::Implementation(const Model& the_model, const Commun
       tables(model, communicator, domain, paths.tables()) {
   communicator.together([&] {
     if (communicator.is_root()) std::filesystem::create_directories(paths.directory.empty() ? "." : paths.directory);
+    if (communicator.is_root() && !restarted) forget_kept_checkpoints(paths.checkpoint());
     status = std::make_unique<Status>(paths.status(), paths.log(), model, restarted, communicator.is_root());
   });
   if (restarted) return;
@@ -198,11 +200,12 @@ bool JobObserver::Implementation::advance(const ResultSource& running, const Pro
   write_status(running, progress, requests);
   if (flush_now) results.add_history(plan->history);
 
-  bool checkpoint = requests.checkpoint || requests.stop || progress.step_finished;
+  bool scheduled = false;
   if (plan->checkpoint) {
-    checkpoint |= plan->checkpoint->due(progress.step_time, progress.increment, progress.step_finished);
+    scheduled = progress.step_finished || plan->checkpoint->due(progress.step_time, progress.increment, false);
     plan->checkpoint->pass(progress.step_time);
   }
+  bool checkpoint = scheduled || requests.checkpoint || requests.stop || progress.step_finished;
   if (progress.step_finished) {
     results.add_history(plan->history);
     results.finish_step(step, progress.total_time);
@@ -210,6 +213,10 @@ bool JobObserver::Implementation::advance(const ResultSource& running, const Pro
   // What a perturbation shows is no state to go on from: the checkpoint before it stands.
   if (current().is_perturbation() && !current().seeks_modes()) checkpoint = false;
   if (checkpoint) save(running, progress);
+  if (checkpoint && scheduled && current().keeps_checkpoints)
+    communicator.together([&] {
+      if (communicator.is_root()) keep_checkpoint(paths.checkpoint(), step + 1, progress.increment);
+    });
   const bool all_done = progress.step_finished && step + 1 == static_cast<std::int32_t>(model.steps.size());
   stopped = requests.stop && !all_done;
   return !stopped;

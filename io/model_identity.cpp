@@ -135,12 +135,13 @@ std::int64_t id_there(const Model& model, ElementRef element) {
 }
 
 std::int64_t refuse_other_step(const Hdf5File& file, const std::string& path, const Model& model) {
-  const auto& asked = model.state_import->step;
+  const auto& [asked, increment, interval] = model.state_import->choice;
   const auto step = file.integer_attribute("/", "step");
   const bool finished = file.integer_attribute("/", "increment") == 0;
-  if (asked && (*asked != step || !finished))
+  const bool within = increment || interval;
+  if (asked && (*asked != (finished ? step : step + 1) || (!finished && !within)))
     refuse_import(path, model,
-                  fmt::format("the state {} step {}, not of the end of step {}; end that job there (--until), or leave STEP out",
+                  fmt::format("the state {} step {}, not of the end of step {}; let that job keep its states (*RESTART, WRITE without OVERLAY), or leave STEP out",
                               finished ? "of the end of" : "within", finished ? step : step + 1, *asked));
   return step;
 }

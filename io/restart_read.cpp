@@ -50,8 +50,8 @@ class Preparation {
   void check_step(const Standing& place) const {
     if (read_.step != 0 && read_.step != place.number())
       refuse(fmt::format(
-          "{} stands {} step {}, not of step {}: a checkpoint holds the last state of its job alone; give STEP={}, or end that job "
-          "there (--until)",
+          "{} stands {} step {}, not of step {}; give STEP={}, or let that job keep its states (*RESTART, WRITE without "
+          "OVERLAY)",
           path_, place.within_step() ? "within" : "at the end of", place.number(), read_.step, place.number()));
     const auto steps = static_cast<std::int64_t>(model_.steps.size());
     if (place.number() > steps)

@@ -18,6 +18,7 @@
 #include "imported_mesh.hpp"
 #include "info.hpp"
 #include "job_observer.hpp"
+#include "kept_checkpoints.hpp"
 #include "materials/elastic_by_temperature.hpp"
 #include "model/check.hpp"
 #include "model/diagnostics.hpp"
@@ -71,7 +72,7 @@ ReadResult read_whole(const Command& command, const FileLoader& loader) {
     };
   else if (!command.import_from.empty())
     options.move_imported_nodes = [&](Model& model) {
-      move_imported_nodes(command.import_from, ImportedShape::positions_of_other_job, model);
+      move_imported_nodes(chosen_checkpoint(command.import_from, model), ImportedShape::positions_of_other_job, model);
     };
   return read_deck(command.deck, loader, options);
 }
@@ -138,7 +139,7 @@ void refuse_import_from_nowhere(const Command& command, const Model& model) {
                                  model.where(model.state_import->location)));
 }
 
-ExitStatus run(const Command& command, const Communicator& communicator) {
+ExitStatus run(Command command, const Communicator& communicator) {
   auto [model, warnings] = read_whole(command, broadcasting_loader(communicator));
   if (model.steps.empty())
     throw InputError(fmt::format("{}:1: error: *STEP: the deck has no step, so there is nothing to run; add a *STEP or use "
@@ -151,6 +152,7 @@ ExitStatus run(const Command& command, const Communicator& communicator) {
   }
   refuse_import_from_nowhere(command, model);
   const JobPaths paths = paths_of(command);
+  if (!command.import_from.empty()) communicator.together([&] { command.import_from = chosen_checkpoint(command.import_from, model); });
   if (model.restart_read && command.restart) resume_ended_step(paths.checkpoint(), communicator, model);
   if (model.restart_read && !command.restart) prepare_restart(command.import_from, communicator, model);
   install_signal_handlers();

@@ -94,6 +94,7 @@ class Builder {
   std::unordered_map<std::int32_t, std::int32_t> body_of_reference;       // reference node -> Model::rigid_bodies
   std::vector<BoundaryCondition> initial_boundary;                        // *BOUNDARY before the first step
   std::optional<std::int32_t> checkpoint_frequency, checkpoint_number_interval;  // *RESTART there
+  bool keeps_checkpoints = false;
   bool checkpoints_by_procedure = false;                                         // the last *RESTART, WRITE says not when
 
   std::deque<Scope> scopes{1};  // the first is the whole deck's

@@ -3,6 +3,7 @@
 
 #include "deck/builder.hpp"
 #include "deck/register.hpp"
+#include "deck/state_choice.hpp"
 
 namespace balocco::deck {
 
@@ -11,20 +12,14 @@ namespace {
 /// What a checkpoint of another job is read for is said by the model.
 void read_restart_of_another_job(Builder& builder, const Block& block) {
   if (builder.in_step) return builder.error(block, block.location, "READ stands before or behind a *STEP, not in one; move it");
-  for (const char* parameter : {"INC", "INTERVAL"})
-    if (block.has(parameter))
-      return builder.error(
-          block, block.location,
-          fmt::format("{}: a checkpoint holds the last state of its job alone; leave it out, or stop that job there", parameter));
   if (builder.model.nodes.size() == 0)
     return builder.error(
         block, block.location,
         "the model and the steps before are missing; say them as the first deck did: *INCLUDE, INPUT=FIRST.inp before this line");
   if (builder.model.restart_read) return builder.error(block, block.location, "READ is said twice; remove one");
-  const auto step = block.integer("STEP", 0);
-  if (block.has("STEP") && step < 1)
-    return builder.error(block, block.location, fmt::format("STEP={} must be the number of a step, from 1; correct it", step));
-  builder.model.restart_read = RestartRead{.step = step, .end_step = block.has("END STEP"), .location = block.location};
+  const auto choice = read_state_choice(builder, block, "INC");
+  builder.model.restart_read =
+      RestartRead{.step = choice.step.value_or(0), .end_step = block.has("END STEP"), .choice = choice, .location = block.location};
 }
 
 void read_restart(Builder& builder, const Block& block) {
@@ -43,12 +38,12 @@ void read_restart(Builder& builder, const Block& block) {
   const bool by_intervals = block.has("NUMBER INTERVAL");
   auto& every = builder.in_step ? builder.model.steps.back().checkpoint_frequency : builder.checkpoint_frequency;
   auto& number = builder.in_step ? builder.model.steps.back().checkpoint_number_interval : builder.checkpoint_number_interval;
+  (builder.in_step ? builder.model.steps.back().keeps_checkpoints : builder.keeps_checkpoints) = !block.has("OVERLAY");
   builder.checkpoints_by_procedure = !by_intervals && !block.has("FREQUENCY");
   every = by_intervals ? std::nullopt : unless_zero(frequency);
   number = by_intervals ? unless_zero(intervals) : std::nullopt;
 }
 
-// OVERLAY is how checkpoints are always kept: the last whole one.
 const RegisterKeyword restart{{"RESTART",
                                Phase::history,
                                Place::anywhere,

@@ -1,4 +1,4 @@
-// *IMPORT, *IMPORT ELSET, *IMPORT NSET: what starts from the last state of another job. The mesh itself stands in the deck, as it
+// *IMPORT, *IMPORT ELSET, *IMPORT NSET: what starts from a state of another job. The mesh itself stands in the deck, as it
 // was before any deformation. ELEMENT SHIFT and SHIFT NODES, of *ELCOPY, say that elements go on from those of other numbers: so that
 // several copies of a part, wherever they stand, start from the state of one.
 #include <fmt/format.h>
@@ -9,6 +9,7 @@
 
 #include "deck/builder.hpp"
 #include "deck/register.hpp"
+#include "deck/state_choice.hpp"
 #include "elements/element_type.hpp"
 
 namespace balocco::deck {
@@ -18,7 +19,7 @@ namespace {
 StateImport& state_import(Builder& builder, const Block& block) {
   auto& import = builder.model.state_import;
   if (!import)
-    import = StateImport{.state = true, .update = false, .step = {}, .elements = {}, .nodes = {}, .copies = {}, .location = block.location};
+    import = StateImport{.state = true, .update = false, .choice = {}, .elements = {}, .nodes = {}, .copies = {}, .location = block.location};
   return *import;
 }
 
@@ -74,8 +75,8 @@ ImportedCopy elements_of(Builder& builder, const Block& block) {
   return part;
 }
 
-bool is_of_one_state(const StateImport& import, bool state, bool update, std::optional<std::int32_t> step) {
-  return import.state == state && import.update == update && import.step == step;
+bool is_of_one_state(const StateImport& import, bool state, bool update, const StateChoice& choice) {
+  return import.state == state && import.update == update && import.choice == choice;
 }
 
 void read_import(Builder& builder, const Block& block) {
@@ -88,22 +89,16 @@ void read_import(Builder& builder, const Block& block) {
     builder.error(block, block.location,
                   "STATE=NO with UPDATE=NO is not supported: elements here would find the stresses of the deformation that is "
                   "imported; import the deformed mesh free of stress with UPDATE=YES");
-  for (const char* parameter : {"INCREMENT", "INTERVAL", "ITERATION"})
-    if (block.has(parameter))
-      builder.error(block, block.location,
-                    std::string(parameter) +
-                      ": of the checkpoints that a job writes (*RESTART, WRITE, FREQUENCY= or NUMBER INTERVAL=) it keeps the last one alone; "
-                      "leave it out, and end that job where its state is to be taken: after a step by --until STEP, within one by a line "
-                      "`stop` in JOB.ctl or a *STEP that ends there");
+  if (block.has("ITERATION")) builder.error(block, block.location, "ITERATION: states between iterations are not kept; leave it out, or say INCREMENT");
   if (block.lines.empty()) builder.error(block, block.location, "sets of elements to import are missing; name them on data lines");
-  const auto step = block.has("STEP") ? std::optional(static_cast<std::int32_t>(block.integer("STEP", 0))) : std::nullopt;
-  if (const auto& before = builder.model.state_import; before && !is_of_one_state(*before, state, update, step))
+  const auto choice = read_state_choice(builder, block, "INCREMENT");
+  if (const auto& before = builder.model.state_import; before && !is_of_one_state(*before, state, update, choice))
     builder.error(block, block.location,
-                  fmt::format("STATE, UPDATE and STEP differ from those of {}; one state is imported, give them alike", builder.model.where(before->location)));
+                  fmt::format("STATE, UPDATE, STEP, INCREMENT and INTERVAL differ from those of {}; one state is imported, give them alike", builder.model.where(before->location)));
   auto& import = state_import(builder, block);
   import.state = state;
   import.update = update;
-  import.step = step;
+  import.choice = choice;
   auto part = elements_of(builder, block);
   part.element_shift = block.integer("ELEMENT SHIFT", 0);
   part.node_shift = block.integer("SHIFT NODES", 0);

@@ -56,6 +56,7 @@ void inherit(Builder& builder, Step& step) {
     hold_ground_nodes(builder, step);
     step.checkpoint_frequency = builder.checkpoint_frequency;
     step.checkpoint_number_interval = builder.checkpoint_number_interval;
+    step.keeps_checkpoints = builder.keeps_checkpoints;
     for (std::size_t pair = 0; pair < model.contact_pairs.size(); ++pair) {
       step.active_contact_pairs.push_back(static_cast<std::int32_t>(pair));
     }
@@ -83,6 +84,7 @@ void inherit(Builder& builder, Step& step) {
   step.print_outputs = before.print_outputs;
   step.checkpoint_frequency = before.checkpoint_frequency;
   step.checkpoint_number_interval = before.checkpoint_number_interval;
+  step.keeps_checkpoints = before.keeps_checkpoints;
   double total = 0.0;
   for (const auto& done : model.steps) total += done.duration();
   const auto settle = [&](auto& loads) {

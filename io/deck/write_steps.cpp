@@ -310,10 +310,11 @@ void Writer::print_outputs(const Step& step, std::size_t row) {
 
 void Writer::checkpoints(std::size_t row) {
   const Step& step = model_.steps[row];
+  const char* const overlay = step.keeps_checkpoints ? "" : ", OVERLAY";
   if (step.checkpoint_frequency) {
-    line("*RESTART, WRITE, FREQUENCY={}", *step.checkpoint_frequency);
+    line("*RESTART, WRITE, FREQUENCY={}{}", *step.checkpoint_frequency, overlay);
   } else if (step.checkpoint_number_interval) {
-    line("*RESTART, WRITE, NUMBER INTERVAL={}", *step.checkpoint_number_interval);
+    line("*RESTART, WRITE, NUMBER INTERVAL={}{}", *step.checkpoint_number_interval, overlay);
   } else if (const auto* previous = before(model_, row);
              previous != nullptr && (previous->checkpoint_frequency || previous->checkpoint_number_interval)) {
     line("*RESTART, WRITE, FREQUENCY=0");

@@ -274,11 +274,19 @@ struct ImportedCopy {
   std::vector<std::int32_t> nodes;                 // rows, sorted
 };
 
-/// What starts from the last state of another job (*IMPORT); everything else starts as the deck says.
+/// Which of the states that another job has kept; nothing said: the last one.
+struct StateChoice {
+  std::optional<std::int32_t> step;       // its number: the state at its end, if nothing else is said
+  std::optional<std::int32_t> increment;  // of that step, or of the last one
+  std::optional<std::int32_t> interval;   // the n-th state that is kept of the step
+  bool operator==(const StateChoice&) const = default;
+};
+
+/// What starts from a state of another job (*IMPORT); everything else starts as the deck says.
 struct StateImport {
   bool state = true;    // STATE: stresses and histories are imported, not the deformed mesh alone
   bool update = false;  // UPDATE: the imported positions become the reference configuration
-  std::optional<std::int32_t> step;   // number of the step that the state is of
+  StateChoice choice;
   std::vector<ElementRef> elements;   // sorted
   std::vector<std::int32_t> nodes;    // rows, sorted: those of the elements among them
   std::vector<ImportedCopy> copies;   // of these, what has other numbers there; none is in two of them
@@ -293,6 +301,7 @@ struct StateImport {
 struct RestartRead {
   std::int32_t step = 0;  // number of that step
   bool end_step = false;  // it ends where the checkpoint stands
+  StateChoice choice;
   Location location;
 };
 

@@ -335,6 +335,7 @@ struct Step {
   std::vector<PrintOutput> print_outputs;
   std::optional<std::int32_t> checkpoint_frequency;       // *RESTART, WRITE, FREQUENCY (increments)
   std::optional<std::int32_t> checkpoint_number_interval;  // *RESTART, WRITE, NUMBER INTERVAL
+  bool keeps_checkpoints = false;                          // without OVERLAY: all of them
 
   double duration() const { return std::visit([](const auto& kind) { return kind.duration; }, procedure); }
   std::string_view procedure_name() const { return std::visit([](const auto& kind) { return kind.name; }, procedure); }

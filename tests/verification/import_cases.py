@@ -207,7 +207,7 @@ def updating_the_reference(balocco, folder):
     told("metal", asked.replace("1E6, 0.\n", "1E6, 0.\n*PLASTIC\n1E4, 0.\n"), "its material RUBBER yields or relaxes")
     told("directions", asked.replace("MATERIAL=RUBBER\n", "MATERIAL=RUBBER, ORIENTATION=O\n*ORIENTATION, NAME=O\n0., 1., 0., -1., 0., 0.\n", 1),
          "its section has an ORIENTATION")
-    told("other increments", asked.replace("UPDATE=YES", "UPDATE=YES, STEP=1, INCREMENT=3"), "it keeps the last one alone")
+    told("other increments", asked.replace("UPDATE=YES", "UPDATE=YES, STEP=1, INCREMENT=3"), "no state of increment 3 of step 1 is kept beside")
 
 
 def updating_bodies(balocco, folder):
@@ -267,7 +267,7 @@ def importing_copies(balocco, folder):
     told("what has no source", asked.replace("SHIFT NODES=20", "SHIFT NODES=-100"), "no node 121, from which node 21 is to go on; look at SHIFT NODES=-100")
     told("a copy that is not moved as a whole", asked.replace("\n64, -2.9, 6.1, 7.7", "\n64, -2.9, 6.2, 7.7"), "a copy is moved as a whole")
     told("a copy of two", asked + "*IMPORT ELSET\nCOLUMN_20\n", "element 21 is imported twice")
-    told("two states", asked + "*IMPORT, UPDATE=NO, STEP=2\nCOLUMN_0\n", "STATE, UPDATE and STEP differ from those of")
+    told("two states", asked + "*IMPORT, UPDATE=NO, STEP=2\nCOLUMN_0\n", "STATE, UPDATE, STEP, INCREMENT and INTERVAL differ from those of")
 
 
 def bodies_keep_their_nodes(balocco, folder):

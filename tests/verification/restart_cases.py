@@ -183,6 +183,32 @@ ALLKE, ALLIE, ALLVD, ALLWK, ETOTAL
     check("it tumbles", float(np.abs(whole.frame("U", -1)).max() > 0.5), 1.0, 0.0)
 
 
+def kept_states(run):
+    """A job keeps every state that *RESTART, WRITE asks for, unless it says OVERLAY: others start from any of them."""
+    deck = MODEL + PRESSED.replace("NUMBER INTERVAL=1", "NUMBER INTERVAL=4") + THROWN.format(0.2)
+    whole = run.job(deck, 2, "whole")
+    kept = {step: sorted(int(path.name.split("increment")[1].split(".")[0]) for path in whole.folder.glob(f"{whole.name}.step{step}.*"))
+            for step in (1, 2)}
+    check("states of the explicit step", len(kept[2]), 4, 0)
+    source = ("--import", run.checkpoint(whole))
+    for what, asked in (("INTERVAL", "STEP=2, INTERVAL=2"), ("INC", f"INC={kept[2][0]}")):
+        job = run.job(deck + f"*RESTART, READ, {asked}\n", 1, what, source)
+        check(f"same bits at the end from {what}", float(np.array_equal(whole.frame("U", -1, 2), job.frame("U", -1, 2))), 1.0, 0.0)
+    job = run.job(deck + "*RESTART, READ, STEP=1\n", 1, "after_one", source)
+    check("same bits from the end of the first step", same_steps(whole, job, (2,)), 1.0, 0.0)
+    imported = MODEL + "*IMPORT, STATE=YES, UPDATE=NO, STEP=2, {}\nBAR\n" + THROWN.format(0.01).replace("*END", OUTPUT + "*END")
+    job = run.job(imported.format(f"INCREMENT={kept[2][1]}"), 2, "imported", source)
+    with h5py.File(whole.folder / f"{whole.name}.step2.increment{kept[2][1]}.ckpt.h5") as state, h5py.File(job.folder / f"{job.name}.h5") as file:
+        place = file["mesh/node/coordinates"][()] + job.frame("U", 0)
+        check("place where *IMPORT begins", np.abs(place - state["position"][()]).max(), 0.0, 1e-15)
+    told = run.job(imported.format("INTERVAL=9"), 2, "missing", source, 2).output
+    check("what is kept is told", float(f"no state of interval 9 of step 2 is kept" in told and f"increment {kept[2][0]} of step 2" in told), 1.0, 0.0)
+    last = run.job(deck.replace("NUMBER INTERVAL=4", "NUMBER INTERVAL=4, OVERLAY"), 1, "whole")
+    check("OVERLAY, and what an earlier run has kept", len(list(last.folder.glob("*.step*.ckpt.h5"))), 0, 0)
+    told = run.job(imported.format("INTERVAL=1"), 1, "overlaid", source, 2).output
+    check("how to keep states is told", float(told.count("without OVERLAY")), 1.0, 0.0)
+
+
 def refusals(run):
     """What cannot be gone on from is told."""
     first = run.job(MODEL + PRESSED, 1, "first")
@@ -202,7 +228,7 @@ def refusals(run):
     check("no job is named", float("run with --import OLD.ckpt.h5" in job.output), 1.0, 0.0)
 
 
-CASES = {case.__name__: case for case in (more_steps, longer_step, ended_step, tumbling, refusals)}
+CASES = {case.__name__: case for case in (more_steps, longer_step, ended_step, tumbling, kept_states, refusals)}
 
 if __name__ == "__main__":
     name, program, folder = sys.argv[1:4]

@@ -224,7 +224,7 @@ class StepText {
     deck_.line("*DSLOAD{}", amplitude_);
     for (const auto* wheel : wheel_names) deck_.line("LINER_{}, P, {:g}", wheel, pressure);
   }
-  void write_restart() { deck_.line("*RESTART, WRITE, FREQUENCY=1000000"); }
+  void write_restart() { deck_.line("*RESTART, WRITE, FREQUENCY=1000000, OVERLAY"); }
   void weight() { deck_.line("*DLOAD\n, GRAV, {:g}, 0., 0., -1.", gravity); }
 
   void end() {
@@ -282,7 +282,7 @@ void write_tyre_steps(const TyreSpec& tyre, const TyreFacts& facts, DeckText& de
   const std::string wheel = wheel_names[0], hub = "HUB_" + wheel;
   const auto load = [&](double pressure) {
     deck.line("*DSLOAD\nLINER_{}, P, {:g}\n*OUTPUT, FIELD, FREQUENCY=1000000\n*NODE OUTPUT\nU\n*ELEMENT OUTPUT\nS\n*OUTPUT, HISTORY, "
-              "FREQUENCY=1\n*NODE OUTPUT, NSET={}\nU, RF\n*RESTART, WRITE, FREQUENCY=1000000\n*END STEP", wheel, pressure, hub);
+              "FREQUENCY=1\n*NODE OUTPUT, NSET={}\nU, RF\n*RESTART, WRITE, FREQUENCY=1000000, OVERLAY\n*END STEP", wheel, pressure, hub);
   };
   write_static_step("SEAT", 0.25, 0.5, deck);
   deck.line("*BOUNDARY\n{}, 1, 6", hub);
@@ -383,7 +383,7 @@ void write_drive(const CarSpec& spec, const BodyMesh& mesh, const TyreSpec& tyre
   constexpr double rows_between_energies = 10.0;  // they change slowly and ask every element
   deck.line("*OUTPUT, HISTORY, TIME INTERVAL={:g}\n*ENERGY OUTPUT\nALLIE, ALLKE, ALLWK, ETOTAL", rows_between_energies * drive.history_interval);
   write_parts_history(spec, mesh, deck);
-  deck.line("*RESTART, WRITE, NUMBER INTERVAL=4\n*END STEP");
+  deck.line("*RESTART, WRITE, NUMBER INTERVAL=4, OVERLAY\n*END STEP");
 }
 
 }  // namespace balocco::car
