@@ -338,12 +338,12 @@ void Writer::initial_velocities() {
 
 void Writer::initial_fields() {
   for (std::size_t k = 0; k < model_.initial_fields.size(); ++k) {
-    const auto& [field, elements, values, location] = model_.initial_fields[k];
+    const auto& [field, components, elements, values, location] = model_.initial_fields[k];
     const auto& table = model_.elements[elements[0].table];
-    if (values.size() > 6) {  // of one point after the other
-      const std::size_t points = table.type->integration_points, count = values.size() / points;
-      line("*INITIAL CONDITIONS, TYPE=STRESS");
-      for (std::size_t point = 0; point < points; ++point) {
+    const char* const type = field == "S0" ? "STRESS" : "HARDENING";
+    if (const auto count = static_cast<std::size_t>(components); values.size() > count) {  // of one point after the other
+      line("*INITIAL CONDITIONS, TYPE={}{}", type, table.type->section == Section::Kind::shell ? ", SECTION POINTS" : "");
+      for (std::size_t point = 0; count * point < values.size(); ++point) {
         std::string numbers;
         for (std::size_t i = 0; i < count; ++i) numbers += fmt::format(", {}", values[count * point + i]);
         line("{}, {}{}", table.id[elements[0].row], point + 1, numbers);
@@ -352,7 +352,7 @@ void Writer::initial_fields() {
     }
     std::string numbers;
     for (const double value : values) numbers += fmt::format(", {}", value);
-    line("*INITIAL CONDITIONS, TYPE={}\n{}{}", field == "S0" ? "STRESS" : "HARDENING",
+    line("*INITIAL CONDITIONS, TYPE={}\n{}{}", type,
          quoted(element_set_of(elements, fmt::format("_INITIAL-{}", k + 1))), numbers);
   }
 }

@@ -16,15 +16,17 @@ namespace {
 void give_initial_stresses(Builder& builder, const Block& block) {
   for (auto& section : builder.model.sections) {
     using Kind = Section::Kind;
-    const bool stressed = section.kind == Kind::solid || section.kind == Kind::membrane || section.kind == Kind::truss;
+    const bool stressed = section.kind == Kind::solid || section.kind == Kind::membrane || section.kind == Kind::truss ||
+                          (section.kind == Kind::shell && !section.shell.general);
     if (!stressed && section.kind != Kind::shell && section.kind != Kind::beam) continue;
     const auto& material = section.material;
     const bool yields = material >= 0 && std::ranges::any_of(builder.model.materials[material].options,
                                                              [](const auto& option) { return option.name.starts_with("plastic"); });
     if (!stressed || yields || section.orientation >= 0) {
       builder.error(block, block.location,
-                    fmt::format("the section of {} {}; load factors are those of solids, membranes and trusses that neither yield nor have an ORIENTATION",
-                                section.element_set, !stressed ? "is of shells or beams" : yields ? "yields" : "has an ORIENTATION"));
+                    fmt::format("the section of {} {}; load factors are those of solids, shells with points in their thickness, membranes and trusses that "
+                                "neither yield nor have an ORIENTATION",
+                                section.element_set, !stressed ? "is a general one, or of beams" : yields ? "yields" : "has an ORIENTATION"));
       return;
     }
     section.initially_stressed = true;

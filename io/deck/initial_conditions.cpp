@@ -79,6 +79,7 @@ int stress_components(Section::Kind kind) {
     case Section::Kind::solid:
       return initial_stress_size(PointKind::solid);
     case Section::Kind::membrane:
+    case Section::Kind::shell:
       return initial_stress_size(PointKind::plane);
     case Section::Kind::truss:
       return initial_stress_size(PointKind::line);
@@ -95,7 +96,7 @@ std::vector<ElementRef> elements_of_line(Builder& builder, const Block& block, R
   for (const auto element : elements) {
     const auto& table = builder.model.elements[element.table];
     if (stress_components(table.type->section) > 0 && table.type->section == kind) continue;
-    row.error(fmt::format("element {} of type {} cannot have an initial {} on this line; name solids, membranes or trusses, one "
+    row.error(fmt::format("element {} of type {} cannot have an initial {} on this line; name solids, shells, membranes or trusses, one "
                           "kind on a line",
                           table.id[element.row], table.type->name, what));
     return {};
@@ -110,60 +111,83 @@ void mark_stressed(Builder& builder, const std::vector<ElementRef>& elements) {
       builder.model.sections[section].initially_stressed = true;
 }
 
-/// A line "element, point, components": one of the points of an element, as CalculiX has it.
-void read_stress_of_point(Builder& builder, const Block& block, Row& row, std::map<ElementRef, InitialField>& by_point) {
-  const auto elements = elements_of_line(builder, block, row, "stress");
+using FieldsByElement = std::map<ElementRef, InitialField>;
+
+/// Points that lines may name one by one: those through the thickness of shells, integration points of others.
+int points_of(const Model& model, ElementRef element) {
+  const auto& table = model.elements[element.table];
+  const auto row = table.section[element.row];
+  if (table.type->section != Section::Kind::shell || row < 0) return table.type->integration_points;
+  const auto& section = model.sections[row];
+  int points = section.plies.empty() ? section.shell.points : 0;
+  for (const auto& ply : section.plies) points += ply.points;
+  return points;
+}
+
+/// A line "elements, point, values".
+void read_values_of_point(Builder& builder, const Block& block, Row& row, const std::string& field, const char* what, FieldsByElement& by_element) {
+  const auto elements = elements_of_line(builder, block, row, what);
   if (elements.empty()) return;
-  const ElementType& type = *builder.model.elements[elements[0].table].type;
-  const int count = stress_components(type.section);
-  const auto point = row.integer(1, "integration point");
+  const int components = field == "S0" ? stress_components(builder.model.elements[elements[0].table].type->section) : 1;
+  const auto point = row.integer(1, "point");
   std::vector<double> values;
-  for (int k = 0; k < count; ++k) values.push_back(row.real_or(2 + k, 0.0, "component of the stress"));
-  if (row.ok() && (point < 1 || point > type.integration_points))
-    row.error(fmt::format("a {} has integration points 1 to {}; correct field 2", type.name, type.integration_points));
-  if (!row.ok()) return;
+  for (int k = 0; k < components; ++k) values.push_back(row.real_or(2 + k, 0.0, what));
+  row.at_most(2 + components);
   for (const auto element : elements) {
-    InitialField& stress = by_point[element];
-    if (stress.elements.empty()) stress = {.field = "S0", .elements = {element}, .values = {}, .location = row.location()};
-    stress.values.resize(static_cast<std::size_t>(count) * type.integration_points, 0.0);
-    std::ranges::copy(values, stress.values.begin() + count * (point - 1));
+    const int points = points_of(builder.model, element);
+    if (row.ok() && (point < 1 || point > points)) {
+      const auto& table = builder.model.elements[element.table];
+      row.error(fmt::format("element {} of type {} has points 1 to {}; correct field 2", table.id[element.row], table.type->name, points));
+    }
+    if (!row.ok()) return;
+    InitialField& initial = by_element[element];
+    if (initial.elements.empty())
+      initial = {.field = field, .components = components, .elements = {element}, .values = {}, .location = row.location()};
+    initial.values.resize(static_cast<std::size_t>(components) * points, 0.0);
+    std::ranges::copy(values, initial.values.begin() + components * (point - 1));
   }
-  mark_stressed(builder, elements);
+  if (field == "S0") mark_stressed(builder, elements);
 }
 
 void read_stresses(Builder& builder, const Block& block) {
-  std::map<ElementRef, InitialField> by_point;
+  FieldsByElement by_element;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
-    if (row.size() > 1 + initial_stress_size(PointKind::solid)) {
-      read_stress_of_point(builder, block, row, by_point);
+    if (block.has("SECTION POINTS") || row.size() > 1 + initial_stress_size(PointKind::solid)) {  // the latter as CalculiX has it
+      read_values_of_point(builder, block, row, "S0", "stress", by_element);
       continue;
     }
-    InitialField stress{.field = "S0", .elements = elements_of_line(builder, block, row, "stress")};
+    InitialField stress{.field = "S0", .elements = elements_of_line(builder, block, row, "stress"), .values = {}, .location = line.location};
     if (stress.elements.empty()) continue;
-    const int count = stress_components(builder.model.elements[stress.elements[0].table].type->section);
-    for (int k = 0; k < count; ++k) stress.values.push_back(row.real_or(1 + k, 0.0, "component of the stress"));
-    row.at_most(1 + count);
+    stress.components = stress_components(builder.model.elements[stress.elements[0].table].type->section);
+    for (int k = 0; k < stress.components; ++k) stress.values.push_back(row.real_or(1 + k, 0.0, "component of the stress"));
+    row.at_most(1 + stress.components);
     if (!row.ok()) continue;
-    stress.location = line.location;
     mark_stressed(builder, stress.elements);
     builder.model.initial_fields.push_back(std::move(stress));
   }
-  for (auto& [element, stress] : by_point) builder.model.initial_fields.push_back(std::move(stress));
+  for (auto& [element, stress] : by_element) builder.model.initial_fields.push_back(std::move(stress));
 }
 
 void read_hardening(Builder& builder, const Block& block) {
+  FieldsByElement by_element;
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
-    InitialField hardening{.field = "PEEQ", .elements = elements_of_line(builder, block, row, "hardening")};
-    if (hardening.elements.empty()) continue;
+    const bool of_point = block.has("SECTION POINTS");
+    const int field = of_point ? 2 : 1;
+    if (row.real(field, "equivalent plastic strain") < 0.0)
+      row.error(fmt::format("equivalent plastic strain {} is negative; correct it", row.real(field, "equivalent plastic strain")));
+    if (!row.ok()) continue;
+    if (of_point) {
+      read_values_of_point(builder, block, row, "PEEQ", "hardening", by_element);
+      continue;
+    }
+    InitialField hardening{.field = "PEEQ", .elements = elements_of_line(builder, block, row, "hardening"), .values = {}, .location = line.location};
     hardening.values = {row.real(1, "equivalent plastic strain")};
     row.at_most(2);
-    if (row.ok() && hardening.values[0] < 0.0)
-      row.error(fmt::format("equivalent plastic strain {} is negative; correct it", hardening.values[0]));
-    hardening.location = line.location;
-    if (row.ok()) builder.model.initial_fields.push_back(std::move(hardening));
+    if (row.ok() && !hardening.elements.empty()) builder.model.initial_fields.push_back(std::move(hardening));
   }
+  for (auto& [element, hardening] : by_element) builder.model.initial_fields.push_back(std::move(hardening));
 }
 
 void read_temperatures(Builder& builder, const Block& block) {
@@ -191,7 +215,8 @@ void read_initial_conditions(Builder& builder, const Block& block) {
 const RegisterKeyword initial{{"INITIAL CONDITIONS",
                                Phase::constraints,
                                Place::model,
-                               {required(choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ROTATING VELOCITY", "STRESS", "HARDENING", "TEMPERATURE"}))},
+                               {required(choice("TYPE", {"DISPLACEMENT", "VELOCITY", "ROTATING VELOCITY", "STRESS", "HARDENING", "TEMPERATURE"})),
+                                flag("SECTION POINTS")},
                                read_initial_conditions}};
 
 }  // namespace

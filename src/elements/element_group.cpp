@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <unordered_map>
 
 #include "elements/bulk_viscosity.hpp"
 #include "elements/element_type.hpp"
@@ -155,16 +156,19 @@ std::vector<double> ElementGroup::initial_history() const {
 int ElementGroup::law_field_row(std::string_view, int) const { return -1; }
 
 void ElementGroup::set_initial_fields(const Model& model, std::span<double> history) const {
-  for (const auto& [field, elements, values, location] : model.initial_fields) {
-    if (law_field_row(field, 0) < 0) continue;
-    for (std::int32_t lane = 0; lane < padded_size_; ++lane) {
-      if (!std::ranges::binary_search(elements, ElementRef{table_, rows_[lane]})) continue;
-      // More values than a point can have: those of one point after the other.
-      const std::size_t points = integration_points(), count = values.size() > 6 ? values.size() / points : values.size();
-      for (std::size_t point = 0; point < points; ++point)
-        for (std::size_t k = 0; k < count; ++k)
-          history[(law_field_row(field, static_cast<int>(point)) + k) * padded_size_ + lane] =
-              values[values.size() > 6 ? count * point + k : k];
+  std::unordered_map<std::int32_t, std::int32_t> lane_of;
+  for (std::int32_t lane = 0; lane < size() && !model.initial_fields.empty(); ++lane) lane_of.emplace(rows_[lane], lane);
+  for (const auto& initial : model.initial_fields) {
+    if (law_field_row(initial.field, 0) < 0) continue;
+    const auto given = static_cast<int>(initial.values.size()) / initial.components;
+    for (const auto element : initial.elements) {
+      const auto known = element.table == table_ ? lane_of.find(element.row) : lane_of.end();
+      if (known == lane_of.end()) continue;
+      for (auto lane = known->second; lane < padded_size_ && rows_[lane] == element.row; ++lane)  // padding repeats the last element
+        for (int point = 0; point < integration_points(); ++point)
+          for (int k = 0; k < initial.components; ++k)
+            history[static_cast<std::size_t>(law_field_row(initial.field, point) + k) * padded_size_ + lane] =
+                initial.values[initial.components * (point % given) + k];
     }
   }
 }

@@ -17,8 +17,9 @@ constexpr int initial_stress_size(PointKind kind) { return kind == PointKind::so
 
 /// The law with a second Piola-Kirchhoff stress S0 that it has already in the undeformed state, where it is the Cauchy stress too:
 ///   solids: P = P_law(F) + F S0; others: S = S_law(E) + S0; energy density + S0 : E.
+/// Laws that yield are to count it: theirs is S = S_law(E + E0), with the elastic strain E0 that it takes in them at rest; solids' refuse it.
 /// S0 belongs to the material directions, so that the stress turns with the body. It is the history field "S0", behind the law's own.
-/// @throws InputError for laws that yield: they would not count the initial stress
+/// @throws InputError for solids that yield
 template <PointKind kind>
 std::unique_ptr<Law<kind>> initially_stressed(std::unique_ptr<Law<kind>> law);
 

@@ -214,18 +214,28 @@ void Checker::check_options(const Material& material, const MaterialLaw& law) {
   }
 }
 
-/// Yielding looks at elastic strains, of which an initial stress has none; hardening means nothing to a law that does not yield.
+/// Yielding of solids looks at elastic strains, of which an initial stress has none; hardening means nothing to a law that does not yield.
 void Checker::check_initial_fields() {
+  const auto yields_as = [&](std::int32_t material) {
+    return material >= 0 && std::ranges::any_of(model_.materials[material].options, [](const auto& option) { return option.name.starts_with("plastic"); });
+  };
   const auto yields = [&](const Section& section) {
-    return section.material >= 0 && std::ranges::any_of(model_.materials[section.material].options,
-                                                        [](const auto& option) { return option.name.starts_with("plastic"); });
+    return yields_as(section.material) || std::ranges::any_of(section.plies, [&](const Ply& ply) { return yields_as(ply.material); });
   };
   for (const auto& field : model_.initial_fields)
     for (const auto element : field.elements) {
       const ElementTable& table = model_.elements[element.table];
       if (table.section[element.row] < 0) continue;  // told
       const bool stress = field.field == "S0";
-      if (yields(model_.sections[table.section[element.row]]) != stress) continue;
+      const auto& section = model_.sections[table.section[element.row]];
+      if (section.kind == Section::Kind::shell && section.shell.general) {
+        error(field.location, fmt::format("*INITIAL CONDITIONS: element {} has no points in its thickness (*SHELL GENERAL SECTION); give it a "
+                                          "*SHELL SECTION, or take it out of the set",
+                                          table.id[element.row]));
+        break;
+      }
+      const bool counts = stress ? !yields(section) || section.kind != Section::Kind::solid : yields(section);
+      if (counts) continue;
       error(field.location,
             stress ? fmt::format("*INITIAL CONDITIONS: element {} yields (*PLASTIC), which an initial stress would not count for; "
                                  "take it out of the set",

@@ -255,10 +255,12 @@ struct InitialDisplacement {
   Location location;
 };
 
-/// *INITIAL CONDITIONS of elements: what a field of their law's history holds at all their points when the analysis begins.
+/// *INITIAL CONDITIONS of elements: what a field of their law's history holds at their points when the analysis begins.
 struct InitialField {
   std::string field;  // "S0": stress in the element's local directions (materials/initial_stress.hpp); "PEEQ": hardening
+  int components = 1;
   std::vector<ElementRef> elements;  // sorted
+  /// Of all points, or of one after the other: the integration points, of shells those through the thickness, from SNEG to SPOS.
   std::vector<double> values;
   Location location;
 };
