@@ -52,6 +52,7 @@ const char* describe(Shape shape) {
     case Shape::wedge:
     case Shape::hexahedron:
     case Shape::quadratic_tetrahedron:
+    case Shape::quadratic_wedge:
     case Shape::quadratic_hexahedron:
       return "a solid";
   }
