@@ -340,7 +340,7 @@ class Parameters {
   KeywordRule& rule_;
 };
 
-void register_law_keyword(const std::string& keyword) {
+KeywordRule rule_of_law(const std::string& keyword) {
   KeywordRule rule{keyword, Phase::definitions, Place::model, {}, read_law, "MATERIAL"};
   Parameters parameters(rule);
   std::vector<std::string> variants;
@@ -353,10 +353,10 @@ void register_law_keyword(const std::string& keyword) {
   if (std::ranges::find(variants, "ISOTROPIC") == variants.end()) variants.push_back("ISOTROPIC");
   parameters.add(choice("TYPE", variants));
   parameters.add(choice("MODULI", {"LONG TERM", "INSTANTANEOUS"}));
-  const RegisterKeyword registered{std::move(rule)};
+  return rule;
 }
 
-void register_option_keyword(const std::string& keyword) {
+KeywordRule rule_of_option(const std::string& keyword) {
   KeywordRule rule{keyword, Phase::definitions, Place::model, {}, read_option, "MATERIAL"};
   Parameters parameters(rule);
   std::vector<std::string> variants;
@@ -367,18 +367,24 @@ void register_option_keyword(const std::string& keyword) {
       parameters.add(word.value.empty() ? flag(word.name) : choice(word.name, {word.value}));
     for (const auto& setting : option->settings) parameters.add(real(setting.name));
   }
-  const RegisterKeyword registered{std::move(rule)};
+  return rule;
+}
+
+/// Several laws, or options, share a keyword, and its rule tells of them all.
+std::vector<RegisterKeyword> register_laws_and_options() {
+  std::set<std::string> of_laws, of_options;
+  for (const auto* law : material_laws()) of_laws.insert(law->keyword);
+  for (const auto* option : material_options()) of_options.insert(option->keyword);
+  std::vector<RegisterKeyword> registered;
+  for (const auto& keyword : of_laws) registered.emplace_back(rule_of_law(keyword));
+  for (const auto& keyword : of_options) registered.emplace_back(rule_of_option(keyword));
+  return registered;
 }
 
 }  // namespace
 
 void register_material_laws() {
-  std::set<std::string> keywords;
-  for (const auto* law : material_laws()) keywords.insert(law->keyword);
-  for (const auto& keyword : keywords) register_law_keyword(keyword);
-  keywords.clear();
-  for (const auto* option : material_options()) keywords.insert(option->keyword);
-  for (const auto& keyword : keywords) register_option_keyword(keyword);
+  static const auto once = register_laws_and_options();
 }
 
 }  // namespace balocco::deck

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <map>
+#include <stdexcept>
 
 #include "deck/text.hpp"
 
@@ -11,7 +12,7 @@ namespace balocco::deck {
 
 namespace {
 
-using Kind = ParameterRule::Kind;
+using ParameterKind = ParameterRule::Kind;
 
 // Function-local so that registrations in other files find it whatever the order of initialisation.
 std::map<std::string, KeywordRule, std::less<>>& table() {
@@ -32,22 +33,22 @@ std::string written_out(std::string_view word, const std::vector<std::string>& w
 
 /// What is wrong with a value, or "". A choice is written out.
 std::string trouble_with_value(const ParameterRule& rule, Parameter& parameter) {
-  if (rule.kind == Kind::foreign) return "";
-  const bool optional = rule.kind == Kind::optional_real || rule.kind == Kind::optional_choice;
-  if (rule.kind == Kind::flag) {
+  if (rule.kind == ParameterKind::foreign) return "";
+  const bool optional = rule.kind == ParameterKind::optional_real || rule.kind == ParameterKind::optional_choice;
+  if (rule.kind == ParameterKind::flag) {
     return parameter.has_value ? fmt::format("{} takes no value; leave out '={}'", rule.name, parameter.raw) : "";
   }
   if (!parameter.has_value || parameter.value.empty()) {
     if (optional && !parameter.has_value) return "";
     return fmt::format("{} needs a value; write {}=...", rule.name, rule.name);
   }
-  if ((rule.kind == Kind::real || rule.kind == Kind::optional_real) && !parse_real(parameter.value)) {
+  if ((rule.kind == ParameterKind::real || rule.kind == ParameterKind::optional_real) && !parse_real(parameter.value)) {
     return fmt::format("{}={} is not a number; write a real number", rule.name, parameter.raw);
   }
-  if (rule.kind == Kind::integer && !parse_integer(parameter.value)) {
+  if (rule.kind == ParameterKind::integer && !parse_integer(parameter.value)) {
     return fmt::format("{}={} is not a whole number; write an integer", rule.name, parameter.raw);
   }
-  if (rule.kind == Kind::choice || rule.kind == Kind::optional_choice) {
+  if (rule.kind == ParameterKind::choice || rule.kind == ParameterKind::optional_choice) {
     const std::string choice = written_out(parameter.value, rule.choices);
     if (choice.empty()) {
       return fmt::format("{}={} is not supported{}{}", rule.name, parameter.raw,
@@ -66,31 +67,31 @@ bool looks_like_data(const Parameter& parameter, const Block& block) {
 }  // namespace
 
 ParameterRule flag(std::string name) {
-  return {Kind::flag, std::move(name), {}, false};
+  return {ParameterKind::flag, std::move(name), {}, false};
 }
 ParameterRule name(std::string name) {
-  return {Kind::name, std::move(name), {}, false};
+  return {ParameterKind::name, std::move(name), {}, false};
 }
 ParameterRule text(std::string name) {
-  return {Kind::text, std::move(name), {}, false};
+  return {ParameterKind::text, std::move(name), {}, false};
 }
 ParameterRule real(std::string name) {
-  return {Kind::real, std::move(name), {}, false};
+  return {ParameterKind::real, std::move(name), {}, false};
 }
 ParameterRule integer(std::string name) {
-  return {Kind::integer, std::move(name), {}, false};
+  return {ParameterKind::integer, std::move(name), {}, false};
 }
 ParameterRule choice(std::string name, std::vector<std::string> choices) {
-  return {Kind::choice, std::move(name), std::move(choices), false};
+  return {ParameterKind::choice, std::move(name), std::move(choices), false};
 }
 ParameterRule optional_real(std::string name) {
-  return {Kind::optional_real, std::move(name), {}, false};
+  return {ParameterKind::optional_real, std::move(name), {}, false};
 }
 ParameterRule optional_choice(std::string name, std::vector<std::string> choices) {
-  return {Kind::optional_choice, std::move(name), std::move(choices), false};
+  return {ParameterKind::optional_choice, std::move(name), std::move(choices), false};
 }
 ParameterRule foreign(std::string name) {
-  return {Kind::foreign, std::move(name), {}, false};
+  return {ParameterKind::foreign, std::move(name), {}, false};
 }
 ParameterRule required(ParameterRule rule) {
   rule.required = true;
@@ -98,8 +99,8 @@ ParameterRule required(ParameterRule rule) {
 }
 
 RegisterKeyword::RegisterKeyword(KeywordRule rule) {
-  auto key = squeeze(rule.keyword);
-  table().emplace(std::move(key), std::move(rule));
+  const auto [place, fresh] = table().try_emplace(squeeze(rule.keyword), std::move(rule));
+  if (!fresh) throw std::logic_error(fmt::format("*{} is registered twice", place->second.keyword));
 }
 
 const KeywordRule* find_keyword(std::string_view squeezed) {
@@ -141,7 +142,7 @@ bool check_parameters(const KeywordRule& rule, Block& block, Diagnostics& diagno
                        known.empty() ? "this keyword takes none" : "supported: " + join(known)));
     } else if (const auto trouble = trouble_with_value(*allowed, parameter); !trouble.empty()) {
       tell(trouble);
-    } else if (allowed->kind == Kind::foreign) {
+    } else if (allowed->kind == ParameterKind::foreign) {
       diagnostics.warning(block.location, rule.keyword,
                           fmt::format("parameter {} has no counterpart here and is left out", allowed->name));
     } else if (block.find(parameter.name) != &parameter) {
@@ -150,7 +151,7 @@ bool check_parameters(const KeywordRule& rule, Block& block, Diagnostics& diagno
   }
   for (const auto& needed : rule.parameters) {
     if (needed.required && !block.has(needed.name)) {
-      tell(fmt::format("parameter {0} is missing; add {0}{1}", needed.name, needed.kind == Kind::flag ? "" : "=..."));
+      tell(fmt::format("parameter {0} is missing; add {0}{1}", needed.name, needed.kind == ParameterKind::flag ? "" : "=..."));
     }
   }
   return good;

@@ -49,6 +49,7 @@ struct KeywordRule {
   bool any_parameter = false;                         // old output requests: nothing of them is looked at
 };
 
+/// A keyword that is known already is a std::logic_error: before main, the program then does not start.
 struct RegisterKeyword {
   explicit RegisterKeyword(KeywordRule rule);
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <stdexcept>
 
 namespace balocco {
 
@@ -44,7 +45,7 @@ bool deforms(const Model& model, const Surface& surface) { return !surface.faces
 
 RegisterElement::RegisterElement(ElementType type) {
   const std::string name = type.name;
-  table().insert_or_assign(name, std::move(type));
+  if (!table().emplace(name, std::move(type)).second) throw std::logic_error("element type " + name + " is registered twice");
 }
 
 }  // namespace balocco

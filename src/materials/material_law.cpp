@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <stdexcept>
 
 #include "model/model.hpp"
 
@@ -42,7 +43,7 @@ template std::unique_ptr<Law<PointKind::fibre>> make_law<PointKind::fibre>(const
 
 RegisterLaw::RegisterLaw(MaterialLaw law) {
   const std::string name = law.name;
-  table().insert_or_assign(name, std::move(law));
+  if (!table().emplace(name, std::move(law)).second) throw std::logic_error("material law " + name + " is registered twice");
 }
 
 }  // namespace balocco

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <map>
+#include <stdexcept>
 
 #include "model/model.hpp"
 
@@ -35,7 +36,7 @@ const MaterialOption* find_option(const Material& material, std::string_view nam
 
 RegisterOption::RegisterOption(OptionSpec option) {
   const std::string name = option.name;
-  table().insert_or_assign(name, std::move(option));
+  if (!table().emplace(name, std::move(option)).second) throw std::logic_error("material option " + name + " is registered twice");
 }
 
 }  // namespace balocco

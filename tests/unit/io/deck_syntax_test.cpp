@@ -3,6 +3,8 @@
 
 #include "deck/digest.hpp"
 #include "deck/expression.hpp"
+#include "deck/groups.hpp"
+#include "deck/register.hpp"
 #include "deck/text.hpp"
 #include "deck_support.hpp"
 
@@ -28,6 +30,12 @@ TEST(DeckText, Numbers) {
 TEST(DeckText, NearestWord) {
   EXPECT_EQ(deck::nearest("SOLID SECTOIN", {"SHELL SECTION", "SOLID SECTION"}), "SOLID SECTION");
   EXPECT_EQ(deck::nearest("XYZ", {"BOUNDARY"}), "");
+}
+
+TEST(KeywordRegister, KnowsEachKeywordOnce) {
+  EXPECT_THROW(deck::RegisterKeyword({.keyword = "NODE"}), std::logic_error);
+  deck::register_material_laws();
+  EXPECT_THROW(deck::RegisterKeyword({.keyword = "ELASTIC"}), std::logic_error);
 }
 
 TEST(DeckExpression, PrecedenceAndFunctions) {

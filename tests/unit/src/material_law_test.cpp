@@ -8,6 +8,8 @@
 #include <cstring>
 #include <random>
 
+#include "elements/element_type.hpp"
+#include "materials/material_option.hpp"
 #include "math/inverse_cube_root.hpp"
 #include "math/pack.hpp"
 #include "model/diagnostics.hpp"
@@ -300,6 +302,12 @@ TEST(MaterialLaw, RegisterListsEveryLawByName) {
   for (std::size_t i = 1; i < laws.size(); ++i) EXPECT_LT(laws[i - 1]->name, laws[i]->name);
   EXPECT_EQ(find_material_law("granite"), nullptr);
   EXPECT_EQ(find_material_law("lamina")->solid, nullptr);
+}
+
+TEST(Registers, TakeANameOnce) {
+  EXPECT_THROW(RegisterLaw({.name = "lamina"}), std::logic_error);
+  EXPECT_THROW(RegisterOption({.name = "plastic"}), std::logic_error);
+  EXPECT_THROW(RegisterElement({.name = "C3D8R"}), std::logic_error);
 }
 
 TEST(InverseCubeRoot, AccurateToRoundOffAndEqualInPacks) {
