@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <ranges>
 
 #include "checkpoint_file.hpp"
 #include "model/diagnostics.hpp"
@@ -12,6 +11,13 @@
 namespace balocco {
 
 namespace {
+
+/// What says of a load or motion when it acts.
+template <class Load>
+const Load& course_of(const Load& load) {
+  return load;
+}
+const BoundaryCondition& course_of(const ConnectorMotion& motion) { return motion.course; }
 
 /// Where a checkpoint stands.
 struct Standing {
@@ -104,12 +110,14 @@ class Preparation {
       return course.amplitude >= 0 && !model_.amplitudes[course.amplitude].total_time && later.amplitude < 0 &&
              later.file == course.file && later.line == course.line;
     };
-    const auto check = [&](const auto& courses, const auto& later) {
-      for (const auto& course : courses)
-        if (std::ranges::any_of(later, [&](const auto& other) { return is_held(course, other); }))
+    const auto check = [&](const auto& loads, const auto& later) {
+      for (const auto& load : loads) {
+        const auto& course = course_of(load);
+        if (std::ranges::any_of(later, [&](const auto& other) { return is_held(course, course_of(other)); }))
           refuse(fmt::format("the step behind it holds what the amplitude of {} reaches at its end, so that it cannot end early; leave END STEP "
                              "out, or say the load or motion again in the new step",
                              model_.where({course.file, course.line})));
+      }
     };
     check(ended.boundary, next.boundary);
     check(ended.concentrated_loads, next.concentrated_loads);
@@ -117,8 +125,7 @@ class Preparation {
     check(ended.temperatures, next.temperatures);
     check(ended.body_loads, next.body_loads);
     check(ended.connector_loads, next.connector_loads);
-    const auto course_of = std::views::transform(&ConnectorMotion::course);
-    check(ended.connector_motions | course_of, next.connector_motions | course_of);
+    check(ended.connector_motions, next.connector_motions);
   }
 
   const std::string& path_;

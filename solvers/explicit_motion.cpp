@@ -32,6 +32,12 @@ double value_after(double delay, const Model& model, const Step& step, const Bou
          amplitude_factor(model, step, condition.amplitude, instant.step_time + delay, instant.total_time + delay);
 }
 
+/// Those of `constraints`, which are in order of their nodes, that hold one node.
+auto on_node(auto& constraints, std::int32_t node) {
+  const auto place = [](const auto& constraint) { return constraint.node; };
+  return std::span(std::ranges::lower_bound(constraints, node, {}, place), std::ranges::upper_bound(constraints, node, {}, place));
+}
+
 }  // namespace
 
 double prescribed_velocity(const Model& model, const Step& step, const BoundaryCondition& condition,
@@ -126,8 +132,7 @@ void NodalConstraints::set_initial_velocities(Analysis& analysis, const Step& st
 }
 
 std::span<const NodalConstraints::Constraint> NodalConstraints::of_node(std::int32_t node) const {
-  const auto range = std::ranges::equal_range(constraints_, node, {}, &Constraint::node);
-  return {range.begin(), range.end()};
+  return on_node(constraints_, node);
 }
 
 void NodalConstraints::find_velocities(const Analysis& analysis, const Step& step, const Instant& instant) {
@@ -148,7 +153,7 @@ void NodalConstraints::find_reactions(const Analysis& analysis, const Instant& i
 }
 
 void NodalConstraints::add_to_reactions(std::int32_t node, const Point& force) {
-  for (auto& constraint : std::ranges::equal_range(constraints_, node, {}, &Constraint::node))
+  for (auto& constraint : on_node(constraints_, node))
     constraint.reaction -= component_of(force.data(), constraint.direction);
 }
 

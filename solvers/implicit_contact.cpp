@@ -68,7 +68,7 @@ void ImplicitSystem::add_contact(bool sticks) {
 
 void ImplicitSystem::count_points(const std::vector<std::vector<ContactPoint>>& closed_before) {
   std::array<double, 3> counts{};
-  auto& [turned, closed, changed] = counts;
+  double &turned = counts[0], &closed = counts[1], &changed = counts[2];
   for_each_contact([&](std::int32_t pair, const auto&, std::int32_t point, bool owned) {
     if (!owned) return;
     const bool now = trial_contact_[pair][point].closed > 0.0, before = closed_before[pair][point].closed > 0.0;

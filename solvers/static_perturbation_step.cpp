@@ -178,8 +178,8 @@ Outcome StaticPerturbationStep::run() {
                             system_.map().equations()));
   if (state.linear) system_.restore(system_.reference());
   respond();
-  analysis_.small_strain().perturb(
-      std::make_shared<SmallStrainOutput::Base>(state.position, state.orientation, state.rotation, state.linear));
+  SmallStrainOutput::Base base{state.position, state.orientation, state.rotation, state.linear};
+  analysis_.small_strain().perturb(std::make_shared<SmallStrainOutput::Base>(std::move(base)));
   state.linear = true;
   state.increment = 1;
   state.step_time = step_.duration();

@@ -151,10 +151,10 @@ void read_motion(Builder& builder, const Block& block) {
     row.at_most(3);
     if (motion.course.fixed && magnitude != 0.0) row.error("FIXED takes no magnitude; remove field 3");
     motion.course.magnitude = scaled(builder, *amplitude, magnitude);
-    for (const auto& [guide, place] : read_actuated(builder, block, row)) {
-      motion.guide = guide;
-      motion.row = place;
-      const auto same = std::ranges::find_if(motions, [&](const auto& other) { return other.guide == guide && other.row == place; });
+    for (const auto& actuated : read_actuated(builder, block, row)) {
+      motion.guide = actuated.guide;
+      motion.row = actuated.row;
+      const auto same = std::ranges::find_if(motions, [&](const auto& other) { return other.guide == motion.guide && other.row == motion.row; });
       if (same != motions.end())
         *same = motion;
       else
@@ -172,9 +172,10 @@ void read_load(Builder& builder, const Block& block) {
     Row row(builder, block, line);
     const double magnitude = row.real(2, "magnitude");
     row.at_most(3);
-    for (const auto& [guide, place] : read_actuated(builder, block, row)) {
-      auto same = std::ranges::find_if(loads, [&](const auto& other) { return other.guide == guide && other.row == place; });
-      if (same == loads.end()) same = loads.insert(loads.end(), {.guide = guide, .row = place});
+    for (const auto& actuated : read_actuated(builder, block, row)) {
+      auto same =
+          std::ranges::find_if(loads, [&](const auto& other) { return other.guide == actuated.guide && other.row == actuated.row; });
+      if (same == loads.end()) same = loads.insert(loads.end(), {.guide = actuated.guide, .row = actuated.row});
       same->magnitude = scaled(builder, *amplitude, magnitude);
       same->amplitude = *amplitude;
       same->file = line.location.file;

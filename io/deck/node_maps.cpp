@@ -28,7 +28,7 @@ std::optional<Point> unit(const Point& vector) {
 }
 
 /// Factors of the three coordinates on an optional data line.
-Point factors(Builder& builder, const Block& block, std::size_t line) {
+Point scale_factors(Builder& builder, const Block& block, std::size_t line) {
   Point scale{1.0, 1.0, 1.0};
   if (line >= block.lines.size()) return scale;
   Row row(builder, block, block.lines[line]);
@@ -100,7 +100,7 @@ Map system_map(Builder& builder, const Block& block, const std::string& type) {
   Points points(builder, block);
   const auto a = points.at(0, 0, "point a");
   if (!a) return {};
-  const auto scale = factors(builder, block, 2);
+  const auto scale = scale_factors(builder, block, 2);
   const auto scaled = [scale](Map map) -> Map {
     return [scale, map = std::move(map)](const Point& x) { return map({scale[0] * x[0], scale[1] * x[1], scale[2] * x[2]}); };
   };
@@ -159,7 +159,7 @@ Map scale_map(Builder& builder, const Block& block) {
   Points points(builder, block);
   const auto a = points.at(0, 0, "point a");
   if (!a) return {};
-  return [a = *a, scale = factors(builder, block, 1)](const Point& x) {
+  return [a = *a, scale = scale_factors(builder, block, 1)](const Point& x) {
     Point result{};
     for (int i = 0; i < 3; ++i) result[i] = a[i] + scale[i] * (x[i] - a[i]);
     return result;

@@ -5,10 +5,11 @@
 
 #include <algorithm>
 #include <array>
-#include <ranges>
+#include <iterator>
 
 #include "deck/geometry.hpp"
 #include "deck/load_magnitude.hpp"
+#include "deck/text.hpp"
 
 namespace balocco::deck {
 
@@ -16,24 +17,24 @@ namespace {
 
 using Kind = SurfaceLoad::Kind;
 
-struct Label {
+struct SurfaceLabel {
   const char* name;
   Kind kind;
   bool has_direction = false, may_stay = false;  // a direction is given; FOLLOWER=NO may keep it
 };
 
-constexpr std::array labels{Label{"P", Kind::pressure},
-                            Label{"TRVEC", Kind::traction, true, true},
-                            Label{"TRSHR", Kind::shear, true},
-                            Label{"EDLD", Kind::edge_traction, true, true},
-                            Label{"EDNOR", Kind::edge_normal},
-                            Label{"EDSHR", Kind::edge_shear},
-                            Label{"EDTRA", Kind::edge_transverse}};
+constexpr std::array surface_labels{SurfaceLabel{"P", Kind::pressure},
+                                    SurfaceLabel{"TRVEC", Kind::traction, true, true},
+                                    SurfaceLabel{"TRSHR", Kind::shear, true},
+                                    SurfaceLabel{"EDLD", Kind::edge_traction, true, true},
+                                    SurfaceLabel{"EDNOR", Kind::edge_normal},
+                                    SurfaceLabel{"EDSHR", Kind::edge_shear},
+                                    SurfaceLabel{"EDTRA", Kind::edge_transverse}};
 
-const Label& label_of(Kind kind) { return *std::ranges::find(labels, kind, &Label::kind); }
+const SurfaceLabel& label_of(Kind kind) { return *std::ranges::find(surface_labels, kind, &SurfaceLabel::kind); }
 
 /// What the keyword's parameters say of a load. @return false, told, if they do not belong to its kind.
-bool read_parameters(const Block& block, Row& row, const Label& label, SurfaceLoad& load) {
+bool read_parameters(const Block& block, Row& row, const SurfaceLabel& label, SurfaceLoad& load) {
   if (block.has("FOLLOWER") && !label.may_stay) {
     row.error(fmt::format("FOLLOWER belongs to TRVEC and EDLD; {} always follows its surface: remove FOLLOWER, or give this line a keyword of "
                           "its own",
@@ -67,16 +68,18 @@ void place(Builder& builder, const SurfaceLoad& said) {
 }  // namespace
 
 std::optional<Kind> surface_load_kind(std::string_view label) {
-  const auto found = std::ranges::find_if(labels, [&](const Label& each) { return label == each.name; });
-  return found == labels.end() ? std::nullopt : std::optional(found->kind);
+  const auto found = std::ranges::find_if(surface_labels, [&](const SurfaceLabel& each) { return label == each.name; });
+  return found == surface_labels.end() ? std::nullopt : std::optional(found->kind);
 }
 
 std::string surface_load_labels() {
-  return fmt::format("{}", fmt::join(labels | std::views::transform(&Label::name), ", "));
+  std::vector<std::string> names;
+  std::ranges::transform(surface_labels, std::back_inserter(names), &SurfaceLabel::name);
+  return join(names);
 }
 
 void read_surface_load_line(Builder& builder, const Block& block, Row& row, Kind kind, std::int32_t surface, std::int32_t amplitude) {
-  const Label& label = label_of(kind);
+  const SurfaceLabel& label = label_of(kind);
   SurfaceLoad load{.kind = kind, .surface = surface};
   if (!read_parameters(block, row, label, load)) return;
   load.magnitude = scaled(builder, amplitude, row.real(2, kind == Kind::pressure ? "pressure" : "traction"));
@@ -99,7 +102,7 @@ std::string surface_load_parameters(const SurfaceLoad& load) {
 }
 
 std::string surface_load_text(const SurfaceLoad& load) {
-  const Label& label = label_of(load.kind);
+  const SurfaceLabel& label = label_of(load.kind);
   return label.has_direction ? fmt::format("{}, {}, {}", label.name, load.magnitude, fmt::join(load.direction, ", "))
                              : fmt::format("{}, {}", label.name, load.magnitude);
 }

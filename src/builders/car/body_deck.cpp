@@ -30,7 +30,7 @@ void write_welds(const CarSpec& spec, const BodyMesh& mesh, bool body, DeckText&
   for (auto weld : mesh.welds()) {
     if ((mesh.part_of(weld[0]).assembly == "BODY") != body) continue;
     // A rigid node carries the others, so that nothing joins two of them by way of one that is not.
-    std::ranges::stable_partition(weld, [&](int node) { return is_rigid(spec, mesh.part_of(node)); });
+    std::stable_partition(weld.begin(), weld.end(), [&](int node) { return is_rigid(spec, mesh.part_of(node)); });
     for (std::size_t i = 1; i < weld.size(); ++i) deck.line("BEAM, {}, {}", weld[i] + 1, weld[0] + 1);
   }
 }

@@ -44,7 +44,7 @@ ConnectorGroup::ConnectorGroup(const GroupInput& input)
                                    : Matrix3<double>::identity();
     }
     const auto at = [&](int end) { return Vector3<double>{input.model.nodes.coordinates[node[end]]}; };
-    auto& reference = references_.emplace_back(RelativeMotion(connector_, axes, at(1) - at(0)));
+    auto& reference = references_.emplace_back(Reference{{connector_, axes, at(1) - at(0)}});
     for (int c = 0; c < 6; ++c)
       if (const auto& unloaded = connector_.component[c].reference)
         reference.stretched[c] = reference.relative.position_at_start(c) - *unloaded;

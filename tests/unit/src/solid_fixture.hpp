@@ -172,7 +172,7 @@ struct Block {
 };
 
 inline SolidCase make_block(const SolidOptions& options, const Block& block, std::int32_t interface_count = 0) {
-  const auto [nx, ny, nz] = block.cells;
+  const int nx = block.cells[0], ny = block.cells[1], nz = block.cells[2];
   std::vector<Point> points;
   std::mt19937 random(7);
   std::uniform_real_distribution<double> uniform(-1.0, 1.0);
