@@ -91,8 +91,8 @@ class FullSolid final : public ElementGroup {
                        const PointBatch<PointKind::solid>& points, const Pack& dilatation, const PackReference& reference) const;
   /// Largest eigenvalue of sum_q w (F^-T : dF)^2 over the nodes of a free element, masses weighed in; at least that of V tau^2.
   Pack dilatation_bound(const FullSolidKinematics<Pack, Shape>& k, const Pack& of_mean, const PackReference& reference) const;
-  void stiffness_of_mean(std::int32_t element, const NodalMotion& motion, const Tensors<double>& stress, const Tangents& tangent,
-                         std::span<double> stiffness) const;
+  void stiffness_of_mean(const FullSolidKinematics<double, Shape>& k, const LaneReference& record, const Tensors<double>& stress,
+                         const Tangents& tangent, std::span<double> stiffness) const;
   void stiffness_of_points(const LaneReference& record, const Tangents& tangent, std::span<double> stiffness) const;
   template <class T>
   Coefficients<T> coefficients_of(std::int32_t element, const double* position) const;

@@ -6,7 +6,7 @@
 
 #include "elements/law_increment.hpp"
 #include "elements/solids/full_solid.hpp"
-#include "math/dual.hpp"
+#include "elements/solids/mean_dilatation_slope.hpp"
 
 namespace balocco {
 
@@ -32,33 +32,10 @@ bool FullSolid<Shape>::linearize(std::int32_t element, const NodalMotion& motion
   for (int i = 0; i < 3 * Shape::nodes; ++i) force[i] = nodal[i / 3][i % 3];
   if (stiffness.empty()) return true;
   if constexpr (Shape::mean_dilatation)
-    stiffness_of_mean(element, motion, stress, tangent, stiffness);
+    stiffness_of_mean(k, record, stress, tangent, stiffness);
   else
     stiffness_of_points(record, tangent, stiffness);
   return true;
-}
-
-// The mean dilatation couples all points: duals of the whole element carry the chain rule.
-template <class Shape>
-void FullSolid<Shape>::stiffness_of_mean(std::int32_t element, const NodalMotion& motion, const Tensors<double>& stress,
-                                         const Tangents& tangent, std::span<double> stiffness) const {
-  constexpr int dofs = 3 * Shape::nodes;
-  using Derivative = Dual<dofs>;
-  const LaneReference record = reference(element);
-  const auto k_dual = full_solid_kinematics<Shape>(coefficients_of<Derivative>(element, motion.position), record);
-  Tensors<Derivative> stress_dual;
-  for (int q = 0; q < Shape::points; ++q) {
-    for (int i = 0; i < 9; ++i) {
-      Derivative& component = stress_dual[q].component[i];
-      component = Derivative(stress[q].component[i]);
-      for (int j = 0; j < 9; ++j)
-        for (int n = 0; n < dofs; ++n)
-          component.derivative[n] += tangent[q][9 * i + j] * k_dual.modified[q].component[j].derivative[n];
-    }
-  }
-  const auto forces = Shape::nodal(full_solid_conjugates<Shape>(k_dual, stress_dual, Derivative(0.0), record));
-  for (int i = 0; i < dofs; ++i)
-    for (int j = 0; j < dofs; ++j) stiffness[dofs * i + j] = forces[i / 3][i % 3].derivative[j];
 }
 
 /// Gradients of the shape functions by the reference position, at a point.
@@ -73,26 +50,79 @@ std::array<Vector3<double>, Shape::nodes> reference_gradients(int q, const LaneR
   return Shape::nodal(of_modes);
 }
 
+/// Adds grad N_I . slope . grad N_J for a slope (row-major 9 x 9) of stresses by deformation gradients.
+template <std::size_t nodes>
+void add_point_stiffness(const std::array<Vector3<double>, nodes>& gradient, std::span<const double, 81> slope, std::span<double> stiffness) {
+  constexpr std::size_t dofs = 3 * nodes;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::array<std::array<double, dofs>, 3> by_dof{};  // row i of the stress
+    for (std::size_t j = 0; j < 3; ++j)
+      for (std::size_t node = 0; node < nodes; ++node)
+        for (std::size_t k = 0; k < 3; ++k) {
+          const double* const of_row = &slope[9 * (3 * i + j) + 3 * k];
+          by_dof[j][3 * node + k] = of_row[0] * gradient[node][0] + of_row[1] * gradient[node][1] + of_row[2] * gradient[node][2];
+        }
+    for (std::size_t node = 0; node < nodes; ++node) {
+      double* const row = &stiffness[dofs * (3 * node + i)];
+      for (std::size_t dof = 0; dof < dofs; ++dof)
+        row[dof] += by_dof[0][dof] * gradient[node][0] + by_dof[1][dof] * gradient[node][1] + by_dof[2][dof] * gradient[node][2];
+    }
+  }
+}
+
+/// grad N . tensor, by node and direction.
+template <std::size_t nodes>
+std::array<double, 3 * nodes> on_nodes(const std::array<Vector3<double>, nodes>& gradient, const Matrix3<double>& tensor) {
+  std::array<double, 3 * nodes> result{};
+  for (std::size_t node = 0; node < nodes; ++node)
+    for (int i = 0; i < 3; ++i)
+      result[3 * node + i] = tensor(i, 0) * gradient[node][0] + tensor(i, 1) * gradient[node][1] + tensor(i, 2) * gradient[node][2];
+  return result;
+}
+
+// The second derivative of sum_q w W(Fbar), with dF scaled by s, H = Fbar^-T, A = dPbar/dFbar, g = H : dF, pi = w Pbar : Fbar / 3,
+// omega = w J / (V Jbar), Pi = sum pi and gbar = d(ln Jbar) = sum omega g:
+//   dFbar = dF + Fbar (gbar - g) / 3,   dg = -tr(F^-1 dF F^-1 dF),   dgbar = sum omega (g g + dg) - gbar gbar.
+// What gbar multiplies couples all points, as three products of vectors; all else is a slope at each point.
+template <class Shape>
+void FullSolid<Shape>::stiffness_of_mean(const FullSolidKinematics<double, Shape>& k, const LaneReference& record,
+                                         const Tensors<double>& stress, const Tangents& tangent, std::span<double> stiffness) const {
+  constexpr int dofs = 3 * Shape::nodes;
+  std::fill(stiffness.begin(), stiffness.end(), 0.0);
+  double whole_pressure = 0.0;  // Pi
+  for (int q = 0; q < Shape::points; ++q)
+    whole_pressure += record[Record::point(q) + 9] / 3.0 * double_contraction(stress[q], k.modified[q]);
+  std::array<double, dofs> mean{}, before{}, behind{};  // gbar, and what stands before and behind it
+  double squared = -whole_pressure;
+  for (int q = 0; q < Shape::points; ++q) {
+    const double weight = record[Record::point(q) + 9];
+    const double share = weight * k.jacobian[q] / (record[Record::volume] * k.mean_jacobian);
+    const MeanDilatationSlope slope(k.modified[q], stress[q], tangent[q], weight, share * whole_pressure);
+    auto gradient = reference_gradients<Shape>(q, record);
+    for (auto& of_node : gradient) of_node = k.scale[q] * of_node;
+    add_point_stiffness(gradient, std::span<const double, 81>(slope.of_point), stiffness);
+    const auto dilatation = on_nodes(gradient, slope.inverse), left = on_nodes(gradient, slope.before), right = on_nodes(gradient, slope.behind);
+    for (int dof = 0; dof < dofs; ++dof) {
+      mean[dof] += share * dilatation[dof];
+      before[dof] += left[dof];
+      behind[dof] += right[dof];
+    }
+    squared += slope.squared;
+  }
+  for (int row = 0; row < dofs; ++row)
+    for (int column = 0; column < dofs; ++column)
+      stiffness[dofs * row + column] += (before[row] + squared * mean[row]) * mean[column] + mean[row] * behind[column];
+}
+
 // K = sum w grad N_I . dP/dF . grad N_J.
 template <class Shape>
 void FullSolid<Shape>::stiffness_of_points(const LaneReference& record, const Tangents& tangent,
                                            std::span<double> stiffness) const {
-  constexpr int dofs = 3 * Shape::nodes;
   std::fill(stiffness.begin(), stiffness.end(), 0.0);
   for (int q = 0; q < Shape::points; ++q) {
-    const auto gradient = reference_gradients<Shape>(q, record);
-    const double weight = record[Record::point(q) + 9];
-    for (int node = 0; node < Shape::nodes; ++node)
-      for (int k = 0; k < 3; ++k) {
-        std::array<double, 9> slope{};  // of w P by this displacement
-        for (int ij = 0; ij < 9; ++ij)
-          for (int l = 0; l < 3; ++l) slope[ij] += weight * tangent[q][9 * ij + 3 * k + l] * gradient[node][l];
-        for (int row = 0; row < dofs; ++row) {
-          const double* const p = &slope[3 * (row % 3)];
-          const auto& g = gradient[row / 3];
-          stiffness[dofs * row + 3 * node + k] += p[0] * g[0] + p[1] * g[1] + p[2] * g[2];
-        }
-      }
+    std::array<double, 81> slope;
+    for (int i = 0; i < 81; ++i) slope[i] = record[Record::point(q) + 9] * tangent[q][i];
+    add_point_stiffness(reference_gradients<Shape>(q, record), std::span<const double, 81>(slope), stiffness);
   }
 }
 
