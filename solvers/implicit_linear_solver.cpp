@@ -56,6 +56,7 @@ void ImplicitLinearSolver::set_defaults() {
 void ImplicitLinearSolver::take_matrix() {
   if (matrix_ == stiffness_.matrix()) return;
   matrix_ = stiffness_.matrix();
+  factorized_ = nullptr;
   petsc(KSPSetOperators(solver_, matrix_, matrix_));
   set_near_null_space();
 }
@@ -105,11 +106,15 @@ void ImplicitLinearSolver::set_near_null_space() {
   for (auto& vector : vectors) petsc(VecDestroy(&vector));
 }
 
-bool ImplicitLinearSolver::solve_vectors(Mat matrix, Vec right_hand_side, Vec solution) {
+bool ImplicitLinearSolver::solve_vectors(Mat matrix, Vec right_hand_side, Vec solution, Factors factors) {
   const double start = MPI_Wtime();
   KSPConvergedReason reason = KSP_DIVERGED_PC_FAILED;
+  const bool keeps = factors == Factors::kept && factorized_ == matrix;
   petsc(KSPSetOperators(solver_, matrix, matrix));
-  if (factorize(solver_)) {
+  petsc(KSPSetReusePreconditioner(solver_, keeps ? PETSC_TRUE : PETSC_FALSE));
+  if (!keeps) ++factorizations_;
+  factorized_ = factorize(solver_) ? matrix : nullptr;
+  if (factorized_ != nullptr) {
     petsc(KSPSolve(solver_, right_hand_side, solution));
     petsc(KSPGetConvergedReason(solver_, &reason));
   }
@@ -151,14 +156,14 @@ void ImplicitLinearSolver::choose_factorization() {
   petsc(PCFactorSetMatSolverType(preconditioner, MATSOLVERMUMPS));
 }
 
-bool ImplicitLinearSolver::solve(std::span<const double> right_hand_side, std::span<double> solution) {
+bool ImplicitLinearSolver::solve(std::span<const double> right_hand_side, std::span<double> solution, Factors factors) {
   take_matrix();
-  choose_factorization();
+  if (factors == Factors::fresh) choose_factorization();
   double* values = nullptr;
   petsc(VecGetArray(right_hand_side_, &values));
   std::ranges::copy(right_hand_side, values);
   petsc(VecRestoreArray(right_hand_side_, &values));
-  const bool solved = solve_vectors(matrix_, right_hand_side_, solution_);
+  const bool solved = solve_vectors(matrix_, right_hand_side_, solution_, factors);
   const double* result = nullptr;
   petsc(VecGetArrayRead(solution_, &result));
   std::copy_n(result, solution.size(), solution.data());
@@ -213,7 +218,7 @@ std::string ImplicitLinearSolver::mechanism() {
   petsc(VecDuplicate(solution_, motion.address()));
   fill_with_noise(force);
   clear_multipliers(force);
-  if (!solve_vectors(matrix_, force, motion)) {
+  if (!solve_vectors(matrix_, force, motion, Factors::kept)) {
     // The factorisation broke down: a touch of stiffness everywhere lets it through, and the mechanism still stands
     // out.
     PetscMatrix stiffened;

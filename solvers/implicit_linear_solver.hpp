@@ -10,16 +10,19 @@
 
 namespace balocco {
 
+/// Whether a solution is found with factors of the matrix as it stands, or with those of the solution before.
+enum class Factors { fresh, kept };
+
 class ImplicitLinearSolver {
  public:
   /// The symbolic factorisation is made once for each pattern of `stiffness`. A matrix that is symmetric to round-off
   /// (followers, friction and laws decide that as they act) is factorised as such, at half the cost. Collective.
   ImplicitLinearSolver(const ImplicitStiffness& stiffness, const Analysis& analysis, const ImplicitDofMap& map);
 
-  /// Factorises the matrix as it stands (once per factorise) and solves for the values of the equations this rank owns.
+  /// Solves for the values of the equations this rank owns; kept factors serve where there are some of this pattern.
   /// @return false if the factorisation failed, the iteration did not converge or the solution is not finite.
   /// Collective.
-  bool solve(std::span<const double> right_hand_side, std::span<double> solution);
+  bool solve(std::span<const double> right_hand_side, std::span<double> solution, Factors factors = Factors::fresh);
 
   /// What makes the matrix singular: "node N, dof D" of the largest component of a motion that meets no resistance, or
   /// empty where every motion meets some. Costs one back substitution after solve(). Collective.
@@ -32,6 +35,7 @@ class ImplicitLinearSolver {
   bool symmetric() const { return symmetric_; }
 
   double seconds() const { return seconds_; }
+  int factorizations() const { return factorizations_; }
 
  private:
   void set_defaults();
@@ -39,7 +43,7 @@ class ImplicitLinearSolver {
   bool is_symmetric() const;
   void take_matrix();
   void set_near_null_space();
-  bool solve_vectors(Mat matrix, Vec right_hand_side, Vec solution);
+  bool solve_vectors(Mat matrix, Vec right_hand_side, Vec solution, Factors factors = Factors::fresh);
   void clear_multipliers(Vec vector);
   std::string unresisted_equation();
   std::string largest_component(Vec vector);
@@ -48,10 +52,12 @@ class ImplicitLinearSolver {
   const Analysis& analysis_;
   const ImplicitDofMap& map_;
   Mat matrix_ = nullptr;
+  Mat factorized_ = nullptr;  // the matrix that the factors were found of; null: there are none
   PetscSolver solver_;
   PetscVector right_hand_side_, solution_;
   bool symmetric_ = false, unsymmetric_ = false;  // once found unsymmetric, the matrix stays so
   double seconds_ = 0.0;
+  int factorizations_ = 0;
 };
 
 }  // namespace balocco

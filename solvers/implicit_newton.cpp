@@ -80,6 +80,7 @@ NewtonResult ImplicitNewton::converge(const IncrementGoal& goal) {
       continue;
     }
     if (gives_up(goal, now, result)) return result;
+    keeps_factors_ = !keeps_factors_ && last_factors_suffice(goal, now, result);
     if (!advance(goal, result)) return result;
   }
   result.reason = system_.trouble();
@@ -89,7 +90,7 @@ NewtonResult ImplicitNewton::converge(const IncrementGoal& goal) {
 void ImplicitNewton::start(const IncrementGoal& goal) {
   std::ranges::fill(increment_, 0.0);
   history_.clear();
-  descends_ = false;
+  keeps_factors_ = descends_ = false;
   discontinuous_ = 0;
   augmentations_ = 0;
   iterations_before_ = 0;
@@ -188,6 +189,21 @@ bool ImplicitNewton::at_round_off(const Norms& now) const {
          history_[n - 2] > 0.3 * history_[n - 3];
 }
 
+/// Near the end of quadratic convergence the tangent has changed so little that the last factors lead to equilibrium: they leave twice
+/// that part of the residual which the last correction left, here with a reserve.
+bool ImplicitNewton::last_factors_suffice(const IncrementGoal& goal, const Norms& now, const NewtonResult& result) const {
+  constexpr double reserve = 10.0, most_left = 0.01;
+  const auto n = history_.size();
+  if (n < 2 || !mechanism_.empty() || system_.changed_points() > 0 || system_.turned_points() > 0) return false;
+  const double left = reserve * 2.0 * history_[n - 1] / history_[n - 2];
+  Norms then = now;
+  then.residual *= left;
+  then.largest *= left;
+  then.gap *= left;
+  then.remaining = 0.0;
+  return left <= most_left && accepted(goal, then, result);
+}
+
 bool ImplicitNewton::gives_up(const IncrementGoal& goal, const Norms& now, NewtonResult& result) {
   if (result.iterations > 0 && system_.changed_points() > 0 && discontinuous_ < discontinuous_iterations)
     ++discontinuous_;
@@ -217,7 +233,7 @@ bool ImplicitNewton::advance(const IncrementGoal& goal, NewtonResult& result) {
 
 /// Points whose friction turned back go to where their springs would hold them: next, the law tells whether they do.
 bool ImplicitNewton::solve_linear_equations() {
-  if (system_.turned_points() == 0) return solver_.solve(right_hand_side_, solution_);
+  if (system_.turned_points() == 0) return solver_.solve(right_hand_side_, solution_, keeps_factors_ ? Factors::kept : Factors::fresh);
   auto right_hand_side = right_hand_side_;
   for (std::size_t i = 0; i < right_hand_side.size(); ++i) right_hand_side[i] -= system_.sticking()[system_.map().owned_free_slots()[i]];
   return solver_.solve(right_hand_side, solution_);

@@ -70,6 +70,7 @@ class ImplicitNewton {
   Norms norms() const;
   bool accepted(const IncrementGoal& goal, const Norms& now, const NewtonResult& result) const;
   bool at_round_off(const Norms& now) const;
+  bool last_factors_suffice(const IncrementGoal& goal, const Norms& now, const NewtonResult& result) const;
   void start(const IncrementGoal& goal);
   bool advance(const IncrementGoal& goal, NewtonResult& result);
   bool solve_linear_equations();
@@ -99,6 +100,7 @@ class ImplicitNewton {
   double largest_correction_ = 0.0, largest_increment_ = 0.0;
   double greatest_reference_ = 0.0;  // in this step
   std::vector<double> history_;      // of residual norms in this increment
+  bool keeps_factors_ = false;       // in the next correction
   bool descends_ = false;            // since the iterations circled: only corrections that lower the residual are taken
   int discontinuous_ = 0, augmentations_ = 0;
   int iterations_before_ = 0;  // the last augmentation

@@ -52,8 +52,9 @@ Outcome ImplicitStep::run() {
                                           "iterations: the step runs as if NLGEOM=YES");
   log_notes();
   const auto outcome = march();
-  observer_.log(fmt::format("  {:.2f} s: {:.2f} s assembly, {:.2f} s linear solver ({} matrix)", MPI_Wtime() - begin,
-                            newton_.assembly_seconds(), solver_.seconds(), solver_.symmetric() ? "symmetric" : "unsymmetric"));
+  observer_.log(fmt::format("  {:.2f} s: {:.2f} s assembly, {:.2f} s linear solver ({} factorisations, {} matrix)", MPI_Wtime() - begin,
+                            newton_.assembly_seconds(), solver_.seconds(), solver_.factorizations(),
+                            solver_.symmetric() ? "symmetric" : "unsymmetric"));
   return outcome;
 }
 

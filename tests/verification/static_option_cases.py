@@ -2,6 +2,7 @@
 static_option_cases.py CASE PROGRAM FOLDER. Sources of the numbers stand with each case."""
 import math
 import os
+import re
 import sys
 
 import numpy as np
@@ -257,8 +258,24 @@ def linear_interrupted(runner):
     same_job(whole, runner.run("linear", deck, 1, ("--restart",), "stopped_linear"), 1e-10)
 
 
+def kept_factors(runner):
+    """A rubber block pressed and sheared: where the iterations converge quadratically the last correction is found with the factors of the
+    one before, and yet ends at 1e-9 of the forces."""
+    deck = brick((4, 4, 4), (1.0, 1.0, 1.0), "C3D8")
+    deck.sets = {"BASE": deck.where(lambda x, y, z: z == 0.0), "TOP": deck.where(lambda x, y, z: z == 1.0)}
+    deck.add("*MATERIAL, NAME=M\n*HYPERELASTIC, NEO HOOKE\n0.5, 0.1\n*SOLID SECTION, ELSET=ALL, MATERIAL=M")
+    deck.add("*STEP, NLGEOM\n*STATIC\n1., 1.\n*BOUNDARY\nBASE, 1, 3\nTOP, 1, 1, 0.1\nTOP, 2, 2\nTOP, 3, 3, -0.15")
+    deck.add(OUTPUT + "*END STEP")
+    log = runner.run_alike("block", deck).log
+    iterations = re.findall(r"iteration +(\d+): residual \S+ \((\S+) of the forces\)", log)
+    factorizations = int(re.search(r"(\d+) factorisations", log).group(1))
+    print("%s iterations, %d factorisations, residual %s" % (iterations[-1][0], factorizations, iterations[-1][1]))
+    assert factorizations == int(iterations[-1][0]) - 1, "factors found anew"
+    assert float(iterations[-1][1]) <= 1e-9, "residual"
+
+
 CASES = {case.__name__: case for case in (stabilized, snap_through, velocity, gravity, moment, pinned, petsc, interrupted,
-                                          linear_interrupted)}
+                                          linear_interrupted, kept_factors)}
 
 if __name__ == "__main__":
     case, program, folder = sys.argv[1:4]
