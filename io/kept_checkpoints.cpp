@@ -49,17 +49,7 @@ std::vector<Kept> kept_checkpoints(const std::string& path) {
   return kept;
 }
 
-/// Number of the last step that a checkpoint's job has begun, and whether it has ended.
-struct Standing {
-  std::int64_t step = 0;
-  bool at_end = false;
-
-  explicit Standing(const std::string& path) {
-    const auto file = open_checkpoint(path);
-    at_end = file->integer_attribute("/", "increment") == 0;
-    step = file->integer_attribute("/", "step") + (at_end ? 0 : 1);
-  }
-};
+CheckpointPlace place_of(const std::string& path) { return CheckpointPlace(*open_checkpoint(path)); }
 
 std::string what_is_kept(const std::vector<Kept>& kept) {
   if (kept.empty()) return "that job keeps its last state alone: let it write *RESTART, WRITE without OVERLAY";
@@ -74,15 +64,14 @@ std::string what_is_kept(const std::vector<Kept>& kept) {
 std::string choose(const std::string& path, const StateChoice& choice, const std::string& who) {
   if (!choice.step && !choice.increment && !choice.interval) return path;
   auto kept = kept_checkpoints(path);
-  const auto step = choice.step ? std::int64_t{*choice.step} : Standing(path).step;
+  const auto step = choice.step ? std::int64_t{*choice.step} : place_of(path).number();
   const auto of_step = [&] {
     std::vector<Kept> list;
     std::ranges::copy_if(kept, std::back_inserter(list), [&](const Kept& each) { return each.step == step; });
     return list;
   }();
   if (!choice.increment && !choice.interval) {
-    const Standing last(path);
-    const bool is_other = last.step != step && !of_step.empty() && Standing(of_step.back().path).at_end;
+    const bool is_other = place_of(path).number() != step && !of_step.empty() && !place_of(of_step.back().path).within_step();
     return is_other ? of_step.back().path : path;  // whose reader tells where it stands
   }
   const auto found = choice.increment ? std::ranges::find(of_step, std::int64_t{*choice.increment}, &Kept::increment)

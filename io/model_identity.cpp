@@ -6,6 +6,7 @@
 #include <cmath>
 #include <optional>
 
+#include "checkpoint_file.hpp"
 #include "constraints/constraint.hpp"
 #include "elements/element_type.hpp"
 #include "elements/slave_places.hpp"
@@ -136,14 +137,13 @@ std::int64_t id_there(const Model& model, ElementRef element) {
 
 std::int64_t refuse_other_step(const Hdf5File& file, const std::string& path, const Model& model) {
   const auto& [asked, increment, interval] = model.state_import->choice;
-  const auto step = file.integer_attribute("/", "step");
-  const bool finished = file.integer_attribute("/", "increment") == 0;
+  const CheckpointPlace place(file);
   const bool within = increment || interval;
-  if (asked && (*asked != (finished ? step : step + 1) || (!finished && !within)))
+  if (asked && (*asked != place.number() || (place.within_step() && !within)))
     refuse_import(path, model,
                   fmt::format("the state {} step {}, not of the end of step {}; let that job keep its states (*RESTART, WRITE without OVERLAY), or leave STEP out",
-                              finished ? "of the end of" : "within", finished ? step : step + 1, *asked));
-  return step;
+                              place.within_step() ? "within" : "of the end of", place.number(), *asked));
+  return place.step;
 }
 
 namespace {

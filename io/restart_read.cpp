@@ -19,29 +19,12 @@ const Load& course_of(const Load& load) {
 }
 const BoundaryCondition& course_of(const ConnectorMotion& motion) { return motion.course; }
 
-/// Where a checkpoint stands.
-struct Standing {
-  std::int64_t step = 0;       // row of the step that is running or comes next
-  std::int64_t increment = 0;  // 0: that step has not begun
-  double step_time = 0.0, total_time = 0.0, time_increment = 0.0;
-
-  explicit Standing(const Hdf5File& file)
-      : step(file.integer_attribute("/", "step")),
-        increment(file.integer_attribute("/", "increment")),
-        step_time(file.number_attribute("/", "step_time")),
-        total_time(file.number_attribute("/", "total_time")),
-        time_increment(file.number_attribute("/", "time_increment")) {}
-  bool within_step() const { return increment > 0; }
-  /// Number of the last step that has been begun.
-  std::int64_t number() const { return step + (within_step() ? 1 : 0); }
-};
-
 class Preparation {
  public:
   Preparation(const std::string& path, Model& model) : path_(path), model_(model), read_(*model.restart_read) {}  // has one
 
   void run() {
-    const Standing place(*open_checkpoint(path_));
+    const CheckpointPlace place(*open_checkpoint(path_));
     check_step(place);
     check_times(place);
     if (read_.end_step) end_step(place);
@@ -53,7 +36,7 @@ class Preparation {
     throw InputError(fmt::format("{}: error: *RESTART, READ: {}", model_.where(read_.location), text));
   }
 
-  void check_step(const Standing& place) const {
+  void check_step(const CheckpointPlace& place) const {
     if (read_.step != 0 && read_.step != place.number())
       refuse(fmt::format(
           "{} stands {} step {}, not of step {}; give STEP={}, or let that job keep its states (*RESTART, WRITE without "
@@ -68,7 +51,7 @@ class Preparation {
     if (ends_here && place.number() == steps) refuse("nothing is left to do behind that step; add a *STEP");
   }
 
-  void check_times(const Standing& place) const {
+  void check_times(const CheckpointPlace& place) const {
     double before = 0.0;
     for (std::int64_t row = 0; row < place.step; ++row) before += model_.steps[row].duration();
     constexpr double rounding = 1e-9;  // of times that were summed up over increments
@@ -86,7 +69,7 @@ class Preparation {
   }
 
   /// The increment to come, which velocities are ahead by the half of, is the last of the step.
-  void end_step(const Standing& place) {
+  void end_step(const CheckpointPlace& place) {
     if (!place.within_step()) return;
     auto* const procedure = std::get_if<ExplicitProcedure>(&model_.steps[place.step].procedure);
     if (procedure == nullptr)
