@@ -7,6 +7,7 @@ import sys
 import time
 
 sys.path.insert(0, os.path.join(os.path.dirname(os.path.abspath(__file__)), ".."))
+from launch import environment_of_its_own, on_ranks  # noqa: E402
 from static_model import Results  # noqa: E402
 
 
@@ -32,12 +33,11 @@ class Session:
                 out.write(deck)
         else:
             deck.write(base + ".inp")
-        command = [self.program, "run", base + ".inp", "--output", self.folder]
-        if ranks > 1:
-            command = ["mpirun", "--allow-run-as-root", "--oversubscribe", "-n", str(ranks)] + command
+        command = on_ranks(ranks) + [self.program, "run", base + ".inp", "--output", self.folder]
         start = time.time()
         try:
-            done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST)
+            with environment_of_its_own() as environment:
+                done = subprocess.run(command, capture_output=True, text=True, timeout=LONGEST, env=environment)
         except subprocess.TimeoutExpired:
             raise Refused("stopped after %g s" % LONGEST)
         self.seconds += time.time() - start
