@@ -308,7 +308,7 @@ int dispatch(int argc, char** argv) {
   run_command->add_option("deck", command.deck, "Abaqus-style deck")->required();
   run_command->add_option("--output", command.output, "Folder of the results (made if absent)");
   auto* restart = run_command->add_flag("--restart", command.restart, "Go on from JOB.ckpt.h5 in the output folder, on any number of ranks");
-  run_command->add_option("--import", command.import_from, "Start from where another job ended: its JOB.ckpt.h5 (the whole model, or what *IMPORT names)")
+  run_command->add_option("--import", command.import_from, "Start from a state of another job: its JOB.ckpt.h5 (the whole model, or what *IMPORT names)")
       ->excludes(restart);
   run_command->add_option("--until", command.last_step, "Stop after the step of this name");
   run_command->add_option("--ignore", command.ignored_keywords, "Skip this keyword with a warning (repeatable)");

@@ -128,7 +128,11 @@ int points_of(const Model& model, ElementRef element) {
 void read_values_of_point(Builder& builder, const Block& block, Row& row, const std::string& field, const char* what, FieldsByElement& by_element) {
   const auto elements = elements_of_line(builder, block, row, what);
   if (elements.empty()) return;
-  const int components = field == "S0" ? stress_components(builder.model.elements[elements[0].table].type->section) : 1;
+  const auto& first = builder.model.elements[elements[0].table];
+  if (block.has("SECTION POINTS") && first.type->section != Section::Kind::shell)
+    return row.error(fmt::format("element {} of type {} has no points through a thickness; name shells, or leave SECTION POINTS out",
+                                 first.id[elements[0].row], first.type->name));
+  const int components = field == "S0" ? stress_components(first.type->section) : 1;
   const auto point = row.integer(1, "point");
   std::vector<double> values;
   for (int k = 0; k < components; ++k) values.push_back(row.real_or(2 + k, 0.0, what));
@@ -205,6 +209,8 @@ void read_temperatures(Builder& builder, const Block& block) {
 
 void read_initial_conditions(Builder& builder, const Block& block) {
   const std::string type = block.value("TYPE");
+  if (block.has("SECTION POINTS") && type != "STRESS" && type != "HARDENING")
+    builder.error(block, block.location, "SECTION POINTS: stress and hardening of shells alone have such points; remove it");
   if (type == "DISPLACEMENT") return read_displacements(builder, block);
   if (type == "VELOCITY") return read_velocities(builder, block);
   if (type == "ROTATING VELOCITY") return read_rotating_velocities(builder, block);
