@@ -164,17 +164,6 @@ void RigidClusters::line_up() {
   taken_.clear();
 }
 
-void RigidClusters::ask_for_state(const Analysis& analysis, const NodalForces& forces, const Cluster& cluster) {
-  const auto& state = analysis.current;
-  for (const auto& end : cluster.ends) {
-    const std::ptrdiff_t at = 4 * static_cast<std::ptrdiff_t>(end.node);
-    for (const double* nodal : {state.position.data(), state.velocity.data(), static_cast<const double*>(forces.force)}) __builtin_prefetch(nodal + at, 1);
-    if (!end.turns) continue;
-    for (const double* nodal : {state.orientation.data(), state.angular_velocity.data(), static_cast<const double*>(forces.moment)})
-      __builtin_prefetch(nodal + at, 1);
-  }
-}
-
 void RigidClusters::read_state(const Analysis& analysis, Cluster& cluster) {
   const auto& state = analysis.current;
   const auto first = orientation(analysis, cluster.ends.front().node);
@@ -298,10 +287,7 @@ void RigidClusters::add_resting_forces(const Analysis& analysis, const NodalForc
 }
 
 void RigidClusters::find_motion(Analysis& analysis, const Instant& instant, const NodalForces& forces) {
-  constexpr std::size_t ahead = 4;
-  for (std::size_t i = 0; i < clusters_.size(); ++i) {
-    if (i + ahead < clusters_.size()) ask_for_state(analysis, forces, clusters_[i + ahead]);
-    auto& cluster = clusters_[i];
+  for (auto& cluster : clusters_) {
     read_state(analysis, cluster);
     read_loads(forces, cluster);
     cluster.average = instant.average();

@@ -79,8 +79,6 @@ class RigidClusters {
 
   static bool lists_ends(const Analysis& analysis, const Linkage& linkage, const Beside& beside, std::vector<End>& ends, std::vector<Arm>& arms);
   static bool takes_inertia(const Analysis& analysis, Cluster& cluster);
-  /// Of a cluster that comes soon: its nodes lie anywhere.
-  static void ask_for_state(const Analysis& analysis, const NodalForces& forces, const Cluster& cluster);
   static void read_state(const Analysis& analysis, Cluster& cluster);
   static void read_loads(const NodalForces& forces, Cluster& cluster);
   static Momenta momenta(const Cluster& cluster, double average);
