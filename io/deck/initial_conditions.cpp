@@ -81,6 +81,7 @@ int stress_components(Section::Kind kind) {
     case Section::Kind::membrane:
     case Section::Kind::shell:
       return initial_stress_size(PointKind::plane);
+    case Section::Kind::beam:
     case Section::Kind::truss:
       return initial_stress_size(PointKind::line);
     default:
@@ -96,8 +97,8 @@ std::vector<ElementRef> elements_of_line(Builder& builder, const Block& block, R
   for (const auto element : elements) {
     const auto& table = builder.model.elements[element.table];
     if (stress_components(table.type->section) > 0 && table.type->section == kind) continue;
-    row.error(fmt::format("element {} of type {} cannot have an initial {} on this line; name solids, shells, membranes or trusses, one "
-                          "kind on a line",
+    row.error(fmt::format("element {} of type {} cannot have an initial {} on this line; name solids, shells, membranes, beams or trusses, "
+                          "one kind on a line",
                           table.id[element.row], table.type->name, what));
     return {};
   }

@@ -16,6 +16,7 @@ std::span<const int> initial_stress_components(const Model& model, const Element
     case Section::Kind::membrane:
     case Section::Kind::shell:
       return plane;
+    case Section::Kind::beam:
     case Section::Kind::truss:
       return line;
     default:

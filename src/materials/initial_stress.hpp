@@ -7,19 +7,16 @@
 #include <utility>
 
 #include "materials/expanding.hpp"
+#include "materials/initial_strain.hpp"
 #include "materials/material_law.hpp"
 #include "model/model.hpp"
 
 namespace balocco {
 
-/// Components of an initial stress: solids 11 22 33 12 13 23, plane 11 22 12, line 11, fibre 11 12.
-constexpr int initial_stress_size(PointKind kind) { return kind == PointKind::solid ? 6 : strain_size(kind); }
-
 /// The law with a second Piola-Kirchhoff stress S0 that it has already in the undeformed state, where it is the Cauchy stress too:
 ///   solids: P = P_law(F) + F S0; others: S = S_law(E) + S0; energy density + S0 : E.
-/// Laws that yield are to count it: theirs is S = S_law(E + E0), with the elastic strain E0 that it takes in them at rest; solids' refuse it.
+/// Laws that yield are to count it: theirs is that of initially_strained().
 /// S0 belongs to the material directions, so that the stress turns with the body. It is the history field "S0", behind the law's own.
-/// @throws InputError for solids that yield
 template <PointKind kind>
 std::unique_ptr<Law<kind>> initially_stressed(std::unique_ptr<Law<kind>> law);
 

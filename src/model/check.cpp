@@ -214,7 +214,7 @@ void Checker::check_options(const Material& material, const MaterialLaw& law) {
   }
 }
 
-/// Yielding of solids looks at elastic strains, of which an initial stress has none; hardening means nothing to a law that does not yield.
+/// Stresses belong to points; hardening means nothing to a law that does not yield.
 void Checker::check_initial_fields() {
   const auto yields_as = [&](std::int32_t material) {
     return material >= 0 && std::ranges::any_of(model_.materials[material].options, [](const auto& option) { return option.name.starts_with("plastic"); });
@@ -226,23 +226,19 @@ void Checker::check_initial_fields() {
     for (const auto element : field.elements) {
       const ElementTable& table = model_.elements[element.table];
       if (table.section[element.row] < 0) continue;  // told
-      const bool stress = field.field == "S0";
       const auto& section = model_.sections[table.section[element.row]];
-      if (section.kind == Section::Kind::shell && section.shell.general) {
-        error(field.location, fmt::format("*INITIAL CONDITIONS: element {} has no points in its thickness (*SHELL GENERAL SECTION); give it a "
-                                          "*SHELL SECTION, or take it out of the set",
-                                          table.id[element.row]));
+      const bool general_shell = section.kind == Section::Kind::shell && section.shell.general;
+      const bool general_beam = section.kind == Section::Kind::beam && section.beam.shape == BeamProfile::Shape::general;
+      if (general_shell || general_beam) {
+        error(field.location, fmt::format("*INITIAL CONDITIONS: element {} has a section without points ({}); give it {}, or take it out of the set",
+                                          table.id[element.row], general_shell ? "*SHELL GENERAL SECTION" : "SECTION=GENERAL",
+                                          general_shell ? "a *SHELL SECTION" : "a profile"));
         break;
       }
-      const bool counts = stress ? !yields(section) || section.kind != Section::Kind::solid : yields(section);
-      if (counts) continue;
-      error(field.location,
-            stress ? fmt::format("*INITIAL CONDITIONS: element {} yields (*PLASTIC), which an initial stress would not count for; "
-                                 "take it out of the set",
-                                 table.id[element.row])
-                   : fmt::format("*INITIAL CONDITIONS: element {} does not yield, so that it has no hardening; give its material "
-                                 "*PLASTIC or take it out of the set",
-                                 table.id[element.row]));
+      if (field.field == "S0" || yields(section)) continue;
+      error(field.location, fmt::format("*INITIAL CONDITIONS: element {} does not yield, so that it has no hardening; give its material "
+                                        "*PLASTIC or take it out of the set",
+                                        table.id[element.row]));
       break;
     }
 }

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "materials/material_law.hpp"
+#include "materials/initial_stress.hpp"
 #include "model/diagnostics.hpp"
 
 namespace balocco {
@@ -148,8 +148,8 @@ void set_moduli(const Model& model, const Section& section, BeamSection& beam) {
   law->lamina_stiffness(material.parameters, q);
   beam.shear_modulus = q[8];
   beam.youngs_modulus = q[0] - q[1] * q[1] / q[4];
-  if (!material.options.empty()) {
-    beam.law = make_law<PointKind::fibre>(material);
+  if (!material.options.empty() || section.initially_stressed) {
+    beam.law = law_of_section<PointKind::fibre>(material, section);
     beam.fibres = beam_fibres(section.beam);
     beam.points.clear();
     for (const auto& fibre : beam.fibres) beam.points.push_back({fibre.x1, fibre.x2, fibre.lever});
@@ -216,6 +216,7 @@ BeamSection beam_section(const Model& model, const Section& section) {
   const BeamProfile& profile = section.beam;
   BeamSection beam;
   beam.shape = beam_area(profile);
+  beam.points = stress_points(profile);
   if (profile.shape == BeamProfile::Shape::general) {
     beam.youngs_modulus = profile.youngs_modulus;
     beam.shear_modulus = profile.shear_modulus;
@@ -225,7 +226,6 @@ BeamSection beam_section(const Model& model, const Section& section) {
   }
   const double shear = shear_factor(profile.shape) * beam.shear_modulus * beam.shape.area;
   beam.shear_stiffness = profile.shear_stiffness.value_or(std::array{shear, shear});
-  beam.points = stress_points(profile);
   return beam;
 }
 

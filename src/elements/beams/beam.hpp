@@ -39,6 +39,7 @@ class BeamGroup final : public ElementGroup {
   void point_output(std::string_view variable, std::int32_t element, int integration_point, const NodalMotion& motion,
                     std::span<const double> history, std::span<double> values) const override;
   int integration_points() const override { return static_cast<int>(section_data_.points.size()); }
+  int law_field_row(std::string_view field, int point) const override;
   std::size_t bytes_per_element() const override;
 
  private:

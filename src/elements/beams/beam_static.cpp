@@ -4,6 +4,7 @@
 
 #include "elements/beams/beam.hpp"
 #include "elements/law_increment.hpp"
+#include "materials/initial_stress.hpp"
 
 namespace balocco {
 
@@ -130,6 +131,11 @@ ElementEnergies BeamGroup::energies(std::int32_t element, const NodalMotion& mot
     result.viscous += l * fibre.area * density.viscous;
   }
   return result;
+}
+
+int BeamGroup::law_field_row(std::string_view field, int point) const {
+  const int row = section_data_.law ? field_row(*section_data_.law, field) : -1;
+  return row < 0 ? row : fibre_row(point) + row;
 }
 
 int BeamGroup::point_components(std::string_view variable) const {

@@ -274,6 +274,30 @@ TEST(Beam, PureBendingGivesTheMomentOfTheCurvature) {
   EXPECT_NEAR(std::abs(moment[1]), std::abs(f[11]), 1e-10 * std::abs(f[11]));
 }
 
+TEST(Beam, PointsOfAYieldingSectionAreItsFibres) {
+  Beam beam({{0.0, 0.0, 0.0}, {1.0, 0.0, 0.0}});
+  beam.model.sections[0].beam.n1 = {0.0, 1.0, 0.0};
+  beam.model.materials[0].options.push_back({"plastic", {0.0}, {{1e4, 0.0}, {2e4, 0.5}}});
+  beam.build();
+  beam.turn(0, {{0.0, 0.0, -0.05}});
+  beam.turn(1, {{0.0, 0.0, 0.05}});
+  auto history = beam.own_history();
+  std::array<double, 12> force{};
+  beam.group->linearize(0, beam.motion(), beam.own_history(), history, force, {});
+  const auto fibres = beam_fibres(beam.model.sections[0].beam);
+  ASSERT_EQ(beam.group->integration_points(), static_cast<int>(fibres.size()));
+  double moment = 0.0, largest = 0.0;
+  for (std::size_t point = 0; point < fibres.size(); ++point) {
+    std::array<double, 6> stress{};
+    beam.group->output("S", 0, static_cast<int>(point), beam.motion(), history, stress);
+    moment -= fibres[point].area * fibres[point].x1 * stress[0];
+    largest = std::max(largest, std::abs(stress[0]));
+  }
+  EXPECT_NEAR(moment, force[11], 1e-10 * std::abs(force[11]));
+  EXPECT_GT(largest, 1e4);
+  EXPECT_LT(largest, 1.05e4);
+}
+
 TEST(Beam, ADirectionAlongTheAxisIsRefused) {
   Beam beam({{0.0, 0.0, 0.0}, {0.0, 0.0, 2.0}});  // the default n1 is (0, 0, -1)
   EXPECT_THROW(beam.build(), InputError);

@@ -7,6 +7,7 @@
 #include <cstring>
 #include <random>
 
+#include "materials/initial_stress.hpp"
 #include "materials/material_option.hpp"
 #include "materials/rubber_stability.hpp"
 #include "model/diagnostics.hpp"
@@ -26,6 +27,7 @@ struct Subject {
   Material material;
   double size;       // of the strains it is driven to
   double duration;   // of the path; quasi_static: no rates
+  std::vector<double> initial_stress{};
 };
 std::ostream& operator<<(std::ostream& out, const Subject& s) { return out << s.name; }
 MaterialOption chaboche() { return {"plastic-combined", {2.0}, {{0.3, 20.0, 100.0, 2.0, 5.0}}}; }
@@ -36,6 +38,7 @@ Material rubber(const std::string& law, std::vector<double> parameters, std::vec
 MaterialOption prony() { return {"prony", {}, {{0.3, 0.0, 1e-3}, {0.2, 0.0, 1e-2}}}; }
 
 std::vector<Subject> subjects() {
+  const std::vector<double> initial_stress{0.15, -0.05, 0.05, 0.05, -0.05, 0.04};
   return {
       {"isotropic", steel({table()}), 0.05, quasi_static},
       {"perfect", steel({{"plastic", {0.0}, {{0.4, 0.0}}}}), 0.05, quasi_static},
@@ -52,6 +55,9 @@ std::vector<Subject> subjects() {
       {"relaxing-neo-hooke", rubber("neo-hooke", {0.5, 0.05}, {prony()}), 0.3, 5e-3},
       {"relaxing-ogden", rubber("ogden-1", {1.0, 3.0, 0.05}, {prony()}), 0.3, 5e-3},
       {"rate-table", steel({table(), {"plastic", {100.0}, {{0.6, 0.0}, {0.9, 0.5}}}}), 0.05, 1e-3},
+      {"stressed-isotropic", steel({table()}), 0.05, quasi_static, initial_stress},
+      {"stressed-combined", steel({chaboche()}), 0.05, quasi_static, initial_stress},
+      {"stressed-ogden", rubber("ogden-2", {0.8, 2.5, -0.1, -1.5, 0.05, 0.0}), 0.5, quasi_static, initial_stress},
   };
 }
 
@@ -63,6 +69,12 @@ struct Driven {
   std::vector<double> history;
 
   explicit Driven(const Material& material) : law(make_law<kind>(material)), history(law->history_size(), 0.0) {}
+  explicit Driven(const Subject& subject) : Driven(subject.material) {
+    if (subject.initial_stress.empty()) return;
+    law = initially_stressed(std::move(law));
+    history.assign(law->history_size(), 0.0);
+    std::ranges::copy(subject.initial_stress, history.begin() + field_row(*law, "S0"));
+  }
 
   using Stress = Eigen::Matrix<double, n, 1>;
   Stress move(const double* strain, double increment, double* stiffness = nullptr) {
@@ -97,10 +109,12 @@ class LawTable : public ::testing::TestWithParam<Subject> {};
 
 TEST_P(LawTable, TangentIsTheDerivativeAndScalarEqualsPack) {
   const Subject& s = GetParam();
-  Driven<PointKind::solid> point(s.material);
+  const Matrix undeformed = Matrix::Identity();
+  Driven<PointKind::solid> point(s), still(s);
   PointBatch<PointKind::solid> batch;
   batch.count = pack_size;
-  std::vector<double> histories(point.history.size() * pack_size, 0.0);
+  std::vector<double> histories(point.history.size() * pack_size);
+  for (std::size_t i = 0; i < histories.size(); ++i) histories[i] = point.history[i / pack_size];
   batch.history = histories.data();
   batch.history_stride = pack_size;
   constexpr int steps = 10;
@@ -122,12 +136,13 @@ TEST_P(LawTable, TangentIsTheDerivativeAndScalarEqualsPack) {
       for (int k = 0; k < 9; ++k) batch.strain[k][lane] = lane % 2 == 0 ? f.data()[k] : (k % 4 == 0 ? 1.0 : 0.0);
     }
     point.law->stress(batch);
+    still.move(undeformed.data(), s.duration / steps);
     const auto stress = point.move(f.data(), s.duration / steps);
     EXPECT_EQ(std::memcmp(stress.data(), with.data(), sizeof stress), 0);
     for (int k = 0; k < 9; ++k) EXPECT_EQ(batch.stress[k][2], stress[k]) << "step " << i;
     for (std::size_t k = 0; k < point.history.size(); ++k) {
       EXPECT_EQ(histories[k * pack_size + 2], point.history[k]) << "row " << k;
-      EXPECT_EQ(histories[k * pack_size + 1], 0.0);
+      EXPECT_EQ(histories[k * pack_size + 1], still.history[k]);
     }
     const auto again = point.trial(f.data(), 0.0);
     EXPECT_LT((again - stress).norm(), 1e-11 * tangent.norm()) << "zero increment";
@@ -144,10 +159,11 @@ TEST_P(LawTable, IsObjectiveAndWorkIsStoredOrDissipated) {
   const Subject& s = GetParam();
   const Matrix q = Eigen::AngleAxisd(1.3, Eigen::Vector3d(1, 2, -1).normalized()).toRotationMatrix();
   const auto gap = [&](int steps) {
-    Driven<PointKind::solid> point(s.material), turned(s.material);
+    Driven<PointKind::solid> point(s), turned(s);
     double work = 0.0, largest = 0.0;
     Matrix last = Matrix::Identity();
-    Vector9 last_stress = Vector9::Zero();
+    Vector9 last_stress = point.trial(last.data(), 0.0);
+    const double at_first = point.law->energy_density(std::span<const double, 9>(last.data(), 9), point.history).recoverable;
     for (int i = 1; i <= steps; ++i) {
       const Matrix f = path(s, static_cast<double>(i) / steps), qf = q * f;
       const Vector9 stress = point.move(f.data(), s.duration / steps);
@@ -162,11 +178,22 @@ TEST_P(LawTable, IsObjectiveAndWorkIsStoredOrDissipated) {
     }
     const EnergyDensity e = point.law->energy_density(std::span<const double, 9>(last.data(), 9), point.history);
     EXPECT_GE(e.plastic + e.viscous, 0.0);
-    return std::fabs(work - e.recoverable - e.plastic - e.viscous) / work;
+    return std::fabs(work + at_first - e.recoverable - e.plastic - e.viscous) / work;
   };
   const double coarse = gap(100), fine = gap(400);
   EXPECT_LT(fine, 2e-3);
   EXPECT_LT(fine, 0.5 * coarse + 1e-6);
+}
+
+TEST_P(LawTable, BeginsWithItsInitialStress) {
+  const Subject& s = GetParam();
+  if (s.initial_stress.empty()) return;
+  const auto& stress = s.initial_stress;
+  const Matrix q = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, -2, 3).normalized()).toRotationMatrix();
+  Matrix expected;
+  expected << stress[0], stress[3], stress[4], stress[3], stress[1], stress[5], stress[4], stress[5], stress[2];
+  const auto at_rest = Driven<PointKind::solid>(s).move(q.data(), s.duration);  // as of other material axes
+  EXPECT_LT((Eigen::Map<const Matrix>(at_rest.data()) - q * expected).norm(), 1e-13);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, LawTable, ::testing::ValuesIn(subjects()));
