@@ -15,14 +15,15 @@ using Errors = std::vector<std::pair<Location, std::string>>;
 
 /// Thermal strain is a matter of laws that are evaluated at points (materials/expanding.hpp).
 void check_expansion(const Section& section, const Material& material, Errors& errors) {
-  const bool expands = section.kind == Section::Kind::solid || section.kind == Section::Kind::truss ||
-                       (section.kind == Section::Kind::membrane && section.plies.empty());
+  using Kind = Section::Kind;
+  const bool is_sheet = section.kind == Kind::membrane || (section.kind == Kind::shell && !section.shell.general);
+  const bool expands = section.kind == Kind::solid || section.kind == Kind::truss || section.kind == Kind::beam || (is_sheet && section.plies.empty());
   if (!material.expansion || expands) return;
-  errors.emplace_back(section.location, fmt::format("*{}: its material {} has *EXPANSION, which is followed in solids, trusses and membranes of one "
-                                                    "material; take *EXPANSION out, or model the part with solids",
-                                                    section.kind == Section::Kind::membrane ? "MEMBRANE SECTION"
-                                                    : section.kind == Section::Kind::beam   ? "BEAM SECTION"
-                                                                                            : "SHELL SECTION",
+  errors.emplace_back(section.location, fmt::format("*{}SECTION: its material {} has *EXPANSION, which is followed in solids, trusses, beams and sheets "
+                                                    "of one material; take *EXPANSION out, or model the part with solids",
+                                                    section.kind == Kind::membrane  ? "MEMBRANE "
+                                                    : section.shell.general ? "SHELL GENERAL "
+                                                                            : "SHELL ",
                                                     material.name));
 }
 

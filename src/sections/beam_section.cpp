@@ -148,7 +148,7 @@ void set_moduli(const Model& model, const Section& section, BeamSection& beam) {
   law->lamina_stiffness(material.parameters, q);
   beam.shear_modulus = q[8];
   beam.youngs_modulus = q[0] - q[1] * q[1] / q[4];
-  if (!material.options.empty() || section.initially_stressed) {
+  if (!material.options.empty() || material.expansion || section.initially_stressed) {
     beam.law = law_of_section<PointKind::fibre>(material, section);
     beam.fibres = beam_fibres(section.beam);
     beam.points.clear();

@@ -33,7 +33,7 @@ struct BeamSection {
   std::array<double, 2> shear_stiffness{};  // of shear along n1 and n2, shear factor included
   double density = 0.0, damping_beta = 0.0;
   std::vector<BeamPoint> points;
-  // Of materials that do more than *ELASTIC, and of sections with an initial stress; shear, and torsion of profiles that are not round, stay elastic.
+  // Of materials that do more than *ELASTIC or expand, and of sections with an initial stress; shear, and torsion of profiles that are not round, stay elastic.
   std::shared_ptr<const Law<PointKind::fibre>> law;
   std::vector<BeamFibre> fibres;
 };

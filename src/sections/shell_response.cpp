@@ -73,6 +73,7 @@ EnergyDensity shell_energy(const ShellSection& section, double h, const std::arr
     sum.recoverable += layer.weight * h * density.recoverable;
     sum.plastic += layer.weight * h * density.plastic;
     sum.viscous += layer.weight * h * density.viscous;
+    sum.heat += layer.weight * h * density.heat;
   }
   return sum;
 }

@@ -35,9 +35,7 @@ class Reader {
     if (ply.material < 0) fail("it names no material; add MATERIAL=NAME");
     const Material& material = model_.materials[ply.material];
     ShellPly shell_ply;
-    auto plane_law = make_law<PointKind::plane>(material);
-    if (plane_law != nullptr && section_.initially_stressed) plane_law = initially_stressed(std::move(plane_law));
-    shell_ply.law = std::move(plane_law);
+    shell_ply.law = law_of_section<PointKind::plane>(material, section_);
     if (shell_ply.law == nullptr)
       fail(fmt::format("material {} has no plane-stress law; give it *ELASTIC or *HYPERELASTIC", material.name));
     const MaterialLaw* law = find_material_law(material.law);
@@ -60,7 +58,8 @@ class Reader {
     moduli.shear = {c * c * g[0] + s * s * g[1], s * s * g[0] + c * c * g[1], c * s * (g[0] - g[1])};
     moduli.density = material.density;
     moduli.beta = material.damping_beta;
-    result.linear = result.linear && law->lamina_stiffness != nullptr && material.options.empty() && !section_.initially_stressed;
+    result.linear = result.linear && law->lamina_stiffness != nullptr && material.options.empty() && !material.expansion &&
+                    !section_.initially_stressed;
     result.damping_beta = std::max(result.damping_beta, material.damping_beta);
     result.plies.push_back(std::move(shell_ply));
     return moduli;

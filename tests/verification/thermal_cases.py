@@ -175,6 +175,64 @@ def membrane(runner):
         close(results.element("M3D4", "S")[0][axis], -YOUNG * ALPHA * HEAT / (1.0 - POISSON), 1e-8, "S%d%d" % (axis + 1, axis + 1))
 
 
+def turning(kind, section):
+    """A strip 3 x 1 of shells, distorted inside, or a chain of three beams: along x, their ends as sets."""
+    deck = Deck()
+    beams = kind == "B31"
+    for j in range(1 if beams else 3):
+        for i in range(4):
+            inside = not beams and j == 1 and 0 < i < 3
+            deck.add_node(1 + i + 4 * j, i + 0.2 * inside, 0.5 * j + 0.1 * inside, 0.0)
+    cells = [(1 + i + 4 * j, 2 + i + 4 * j, 6 + i + 4 * j, 5 + i + 4 * j) for j in range(2) for i in range(3)]
+    corners = [(i, i + 1) for i in (1, 2, 3)] if beams else cells
+    if kind == "S3R":
+        corners = [part for a, b, c, d in cells for part in ((a, b, c), (a, c, d))]
+    deck.elements[kind] = list(enumerate(corners, 1))
+    deck.sets["EVERY"] = list(deck.nodes)
+    deck.sets["X0"] = deck.where(lambda x, y, z: x < 1e-9)
+    deck.sets["X1"] = deck.where(lambda x, y, z: x > 3.0 - 1e-9)
+    deck.sets["Y0"] = deck.where(lambda x, y, z: y < 1e-9)
+    deck.add(MATERIAL.replace("*SOLID SECTION, ELSET=ALL, MATERIAL=M", section))
+    return deck
+
+
+def shells_and_beams(runner):
+    """Free they grow, in thickness too, without stress; held at both ends they press by -E alpha dT (at finite strain by what the law has
+    at that stretch), heated fast or slowly; bits do not depend on the number of ranks."""
+    sheet = "*SHELL SECTION, ELSET=ALL, MATERIAL=M\n0.1, 5"
+    line = "*BEAM SECTION, ELSET=ALL, MATERIAL=M, SECTION=PIPE\n0.1, 0.02\n0., 1., 0."
+    hold = "*BOUNDARY\nX0, 1\nY0, 2\nEVERY, 3, 6"
+    stretch = 1.0 + ALPHA * HEAT
+    for kind, section in (("S4R", sheet), ("S4", sheet), ("S3R", sheet), ("B31", line)):
+        pressed = saint_venant(1.0 / stretch) if kind != "B31" else 0.5 * YOUNG * stretch * (stretch**-2 - 1.0)  # over the section at the start
+        for geometry, expected in ((LINEAR, -YOUNG * ALPHA * HEAT), (FINITE, pressed)):
+            name = kind + ("_finite" if geometry else "")
+            deck = turning(kind, section)
+            deck.add(step(geometry, hold, "*TEMPERATURE\nEVERY, %g" % HEAT).replace("S, THE", "S, THE" if kind == "B31" else "S, THE, STH"))
+            results = runner.run("free_" + name, deck)
+            close(results.at(4, "U")[0], 3.0 * ALPHA * HEAT, 1e-9, name + ": displacement")
+            close(np.abs(results.element(kind, "S")).max() / (YOUNG * ALPHA * HEAT), 0.0, 1e-8, name + ": stress")
+            close(np.abs(results.element(kind, "THE") - ALPHA * HEAT).max(), 0.0, 1e-17, name + ": thermal strain")
+            if kind != "B31" and geometry:
+                close(np.abs(results.element(kind, "STH") / 0.1 - 1.0 - ALPHA * HEAT).max(), 0.0, 1e-12, name + ": thickness")
+            close(results.file["step_1/history/energy"]["ETOTAL"][-1], 0.0, 1e-9, name + ": energy balance")
+            deck = turning(kind, section)
+            deck.add(step(geometry, hold + "\nX1, 1", "*TEMPERATURE\nEVERY, %g" % HEAT))
+            results = runner.run("held_" + name, deck)
+            for stress in results.element(kind, "S"):
+                close(stress[0], expected, 1e-8, name + ": S11")
+        deck = turning(kind, section)
+        deck.add("*AMPLITUDE, NAME=SLOW, DEFINITION=SMOOTH STEP\n0., 0., 2e-4, 1.")
+        deck.add(step("", hold + "\nX1, 1", "*TEMPERATURE, AMPLITUDE=SLOW\nEVERY, %g" % HEAT, "*DYNAMIC, EXPLICIT\n, 2e-4").replace(
+            "FREQUENCY=1, PRECISION", "NUMBER INTERVAL=2, PRECISION").replace("HISTORY, FREQUENCY=1", "HISTORY, TIME INTERVAL=1e-5"))
+        runs = [runner.run("explicit_" + kind, deck, ranks) for ranks in (1, 2)]
+        for stress in runs[0].element(kind, "S"):
+            close(stress[0], pressed, 1e-2, kind + ": S11 of the explicit step")
+        energy = runs[0].file["step_1/history/energy"]
+        close(np.abs(energy["ETOTAL"][:]).max() / energy["ALLSE"][-1], 0.0, 1e-3, kind + ": energy balance")
+        assert (runs[0].node("U") == runs[1].node("U")).all(), "bits depend on the number of ranks"
+
+
 def constants(runner):
     """Young's modulus by the temperature: stress of a held bar, modes about the initial temperature, and the energy that softening takes
     from it, in linear, in large and in explicit steps."""
@@ -266,7 +324,7 @@ def refused(runner):
         assert done.returncode == 3 and "nothing is left of it" in done.stderr + done.stdout, done.stderr
 
 
-CASES = {case.__name__: case for case in (free, oriented, perturbed, imported, clamped, table, constants, membrane, explicit, refused)}
+CASES = {case.__name__: case for case in (free, oriented, perturbed, imported, clamped, table, constants, membrane, shells_and_beams, explicit, refused)}
 
 if __name__ == "__main__":
     name, program, folder = sys.argv[1:4]

@@ -129,6 +129,7 @@ ElementEnergies BeamGroup::energies(std::int32_t element, const NodalMotion& mot
     result.strain += l * fibre.area * density.recoverable;
     result.plastic += l * fibre.area * density.plastic;
     result.viscous += l * fibre.area * density.viscous;
+    result.heat += l * fibre.area * density.heat;
   }
   return result;
 }

@@ -232,6 +232,7 @@ ElementEnergies ShellGroup<corners, points>::energies(std::int32_t element, cons
     result.strain += point[0] * density.recoverable;
     result.plastic += point[0] * density.plastic;
     result.viscous += point[0] * density.viscous;
+    result.heat += point[0] * density.heat;
   }
   result.viscous += history[dissipation_row()];
   return result;
