@@ -28,6 +28,12 @@ const RegisterElement registered({.name = "C3D8R",
                                   .make_group = make_group,
                                   .point_shapes = [](int, std::span<double> values) { std::ranges::fill(values, 0.125); }});
 
+BrickHourglass hourglass_of(const Section& section, const SolidMaterial& material, bool flows) {
+  if (section.hourglass == HourglassControl::stiffness) return BrickHourglass::scalar;
+  if (flows) return BrickHourglass::flowing;
+  return isotropic_poisson_ratio(material) ? BrickHourglass::isotropic : BrickHourglass::anisotropic;
+}
+
 /// Asks for the history of a pack that comes soon: it lies in more streams, one a component, than processors foresee.
 void prefetch_history(const double* pack, int components, std::ptrdiff_t stride) {
   for (int k = 0; k < components; ++k) __builtin_prefetch(pack + k * stride, 1);
@@ -54,19 +60,20 @@ HourglassFlow HourglassFlow::of(const SolidMaterial& solid, const Material& mate
 ReducedBrick::ReducedBrick(const GroupInput& input)
     : ElementGroup(input),
       material_(SolidMaterial::of_section(input.model, input.model.sections.at(input.section))),
-      enhanced_(input.model.sections[input.section].hourglass == HourglassControl::enhanced),
       flow_(HourglassFlow::of(material_, input.model.materials[input.model.sections[input.section].material],
                               input.model.sections[input.section], own_history)),
+      hourglass_(hourglass_of(input.model.sections[input.section], material_, flow_.active())),
+      poisson_(isotropic_poisson_ratio(material_).value_or(0.0)),
+      record_size_(brick_record::size(hourglass_)),
       law_row_(flow_.active() ? own_history + HourglassFlow::history_size : own_history),
-      records_(static_cast<std::size_t>(padded_size_) * brick_record::size) {
+      records_(static_cast<std::size_t>(padded_size_) * record_size_) {
   const Section& section = input.model.sections[input.section];
   std::array<Vector3<double>, nodes_per_brick> nodes;
   for (std::int32_t lane = 0; lane < padded_size_; ++lane) {
     reference_nodes(input.model, section, input.model.elements[input.table], rows_[lane], nodes);
-    const auto record = reduced_brick_record(HexahedronGeometry(nodes), material_, section, flow_.active());
-    double* data = records_.data() + static_cast<std::size_t>(lane / pack_size) * pack_size * brick_record::size +
-                   lane % pack_size;
-    for (int k = 0; k < brick_record::size; ++k) data[pack_size * k] = record[k];
+    const auto record = reduced_brick_record(HexahedronGeometry(nodes), material_, section, hourglass_);
+    double* const data = &records_[static_cast<std::size_t>(lane / pack_size) * pack_size * record_size_ + lane % pack_size];
+    for (int k = 0; k < record_size_; ++k) data[pack_size * k] = record[k];
   }
 }
 
@@ -85,8 +92,12 @@ StableIncrement ReducedBrick::add_forces(std::span<const PackRun> runs, const Ex
   const auto add = [&]<Hourglass hourglass>() {
     return damped ? add_packs<hourglass, true>(runs, cycle, history) : add_packs<hourglass, false>(runs, cycle, history);
   };
-  if (!enhanced_) return add.template operator()<Hourglass::scalar>();
-  return flow_.active() ? add.template operator()<Hourglass::flowing>() : add.template operator()<Hourglass::enhanced>();
+  switch (hourglass_) {
+    case Hourglass::scalar: return add.template operator()<Hourglass::scalar>();
+    case Hourglass::isotropic: return add.template operator()<Hourglass::isotropic>();
+    case Hourglass::flowing: return add.template operator()<Hourglass::flowing>();
+    default: return add.template operator()<Hourglass::anisotropic>();
+  }
 }
 
 template <ReducedBrick::Hourglass hourglass, bool damped>
@@ -109,8 +120,9 @@ StableIncrement ReducedBrick::add_packs(std::span<const PackRun> runs, const Exp
 template <ReducedBrick::Hourglass hourglass, bool damped>
 [[gnu::flatten]] Pack ReducedBrick::add_pack(std::int32_t element, const ExplicitCycle& cycle,
                                              PointBatch<PointKind::solid>& points, std::span<double> history) const {
-  const PackReference reference{records_.data() + static_cast<std::size_t>(element) * brick_record::size};
-  prefetch_record(reference.data + pack_size * brick_record::size, brick_record::size);
+  constexpr int size = brick_record::size(hourglass);
+  const PackReference reference{records_.data() + static_cast<std::size_t>(element) * size};
+  prefetch_record(reference.data + pack_size * size, size);
   constexpr int packs_ahead = 2;
   prefetch_history(history.data() + element + packs_ahead * pack_size, history_size(), padded_size_);
   if (const auto next = element + pack_size; next < padded_size_)
@@ -134,6 +146,8 @@ template <ReducedBrick::Hourglass hourglass, bool damped>
   auto shape = [&] {  // its plastic deformation is new, the rest as it was when the increment began
     if constexpr (hourglass == Hourglass::flowing)
       return FlowedReference<Pack, PackReference>(reference, flow_, own_history, component);
+    else if constexpr (hourglass == Hourglass::isotropic)
+      return IsotropicShape{reference, poisson_};
     else
       return reference;
   }();
@@ -207,8 +221,8 @@ void ReducedBrick::energies(std::int32_t first, const NodalMotion& motion, std::
 
 [[gnu::flatten]] void ReducedBrick::pack_energies(std::int32_t element, const NodalMotion& motion, std::span<const double> history,
                                                   std::span<ElementEnergies, pack_size> of_lanes) const {
-  const PackReference reference{records_.data() + static_cast<std::size_t>(element) * brick_record::size};
-  prefetch_record(reference.data + pack_size * brick_record::size, brick_record::size);
+  const PackReference reference{record(element)};
+  prefetch_record(reference.data + pack_size * record_size_, record_size_);
   const HexahedronCoefficients<Pack> c = coefficients(gather_nodes(element, motion.position));
   const Matrix3<Pack> f = mean_deformation_gradient(c, reference);
   const Pack hourglass = artificial_energy(
@@ -225,7 +239,7 @@ void ReducedBrick::energies(std::int32_t first, const NodalMotion& motion, std::
 }
 
 std::size_t ReducedBrick::bytes_per_element() const {
-  return sizeof(double) * (brick_record::size + history_size()) + sizeof(std::int32_t) * (2 * nodes_per_brick + 1);
+  return sizeof(double) * (record_size_ + history_size()) + sizeof(std::int32_t) * (2 * nodes_per_brick + 1);
 }
 
 }  // namespace balocco

@@ -43,7 +43,7 @@ class ReducedBrick final : public ElementGroup {
   /// Jacobian, viscous dissipation and viscous mean stress after the last increment; then what HourglassFlow keeps, if anything
   /// yields; then the law's.
   static constexpr int own_history = 3;
-  enum class Hourglass { scalar, enhanced, flowing };
+  using Hourglass = BrickHourglass;
 
   template <Hourglass hourglass, bool damped>
   StableIncrement add_packs(std::span<const PackRun> runs, const ExplicitCycle& cycle,
@@ -65,7 +65,10 @@ class ReducedBrick final : public ElementGroup {
   /// Energy of the hourglass stresses, with what their flow has dissipated; `history(k)`: component k of the element's history.
   template <class T, class Reference>
   T artificial_energy(const HexahedronCoefficients<T>& c, const Matrix3<T>& f, const Reference& reference, const auto& history) const {
-    if (!flow_.active()) return hourglass_energy(c, hourglass_vectors(c, f, reference), reference, enhanced_);
+    if (!flow_.active()) {
+      const auto q = hourglass_vectors(c, f, reference);
+      return with_moduli(reference, [&](const auto& shape) { return hourglass_energy(c, q, shape, hourglass_ != Hourglass::scalar); });
+    }
     const FlowedReference<T, Reference> shape(reference, flow_, own_history, history);
     const T elastic = hourglass_energy(hourglass_strains(c, hourglass_vectors(c, f, shape)), shape), given_up = history(own_history + HourglassFlow::dissipated);
     return given_up + (flow_.failure < 0 ? elastic : select(history(flow_.failure) > 0.0, T(0.0), elastic));
@@ -89,14 +92,21 @@ class ReducedBrick final : public ElementGroup {
   }
   template <class T>
   HexahedronCoefficients<T> coefficients_of(std::int32_t element, const double* position) const;
-  LaneReference reference(std::int32_t element) const {
-    return {records_.data() + static_cast<std::size_t>(element / pack_size) * pack_size * brick_record::size +
-            element % pack_size};
+  /// Calls `use` with a record whose hourglass moduli are there to be read, where nothing flows.
+  auto with_moduli(const auto& reference, auto&& use) const {
+    return hourglass_ == Hourglass::isotropic ? use(IsotropicShape{reference, poisson_}) : use(reference);
   }
+  /// Of the pack that an element is in.
+  const double* record(std::int32_t element) const {
+    return records_.data() + static_cast<std::size_t>(element / pack_size) * pack_size * static_cast<std::size_t>(record_size_);
+  }
+  LaneReference reference(std::int32_t element) const { return {record(element) + element % pack_size}; }
 
   SolidMaterial material_;
-  bool enhanced_;
   HourglassFlow flow_;
+  Hourglass hourglass_;
+  double poisson_;  // of isotropic hourglass moduli
+  int record_size_;
   int law_row_;  // where the law's history begins
   AlignedVector<double> records_;  // [pack][component][lane]
 };

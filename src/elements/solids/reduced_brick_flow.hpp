@@ -111,22 +111,23 @@ HourglassReturn<T> hourglass_return(const T& centre, const T& plastic_strain, co
 /// or a dual.
 template <class Real, class Reference>
 struct FlowedReference {
-  static constexpr int first = brick_record::hourglass_map, last = brick_record::volume;
+  static constexpr int map = brick_record::hourglass_map, map_size = 12;
   const Reference& record;
-  std::array<Real, last - first> changed;
+  std::array<Real, map_size> shape;
+  std::array<Real, brick_record::full_stiffness> stiffness;
   Matrix3<Real> inverse_plastic;  // Fp^-1
   Matrix3<Real> metric;           // of the sides, Fp (C_1, C_2, C_3)
 
-  /// `history(k)`: component k of the element's history; `shape`: row of Q.
-  FlowedReference(const Reference& reference, const HourglassFlow& flow, int shape, const auto& history) : record(reference) {
-    for (int k = 0; k < 12; ++k) changed[k] = reference[first + k] + history(shape + k);
+  /// `history(k)`: component k of the element's history; `shape_row`: of Q.
+  FlowedReference(const Reference& reference, const HourglassFlow& flow, int shape_row, const auto& history) : record(reference) {
+    for (int k = 0; k < map_size; ++k) shape[k] = reference[map + k] + history(shape_row + k);
     inverse_plastic = Matrix3<Real>::identity();
     for (int k = 0; k < 9; ++k) inverse_plastic.component[k] = inverse_plastic.component[k] + history(flow.plastic_deformation + k);
     set_moduli(flow);
   }
   /// Adds a change of Q.
-  void add_shape(const std::array<Real, 12>& change) {
-    for (int k = 0; k < 12; ++k) changed[k] = changed[k] + change[k];
+  void add_shape(const std::array<Real, map_size>& change) {
+    for (int k = 0; k < map_size; ++k) shape[k] = shape[k] + change[k];
   }
   /// Largest eigenvalue of the inverse metric: 1 / (shortest half side)^2 of a box.
   Real inverse_size() const {
@@ -137,13 +138,16 @@ struct FlowedReference {
   /// |Q|^2 over the shortest reference half side squared.
   Real distortion() const {
     Real square = Real(0.0);
-    for (int k = 0; k < 12; ++k) {
-      const Real q = changed[k] - record[first + k];
+    for (int k = 0; k < map_size; ++k) {
+      const Real q = shape[k] - record[map + k];
       square = square + q * q;
     }
     return square * record[brick_record::gradient_bound];
   }
-  Real operator[](int k) const { return k >= first && k < last ? changed[k - first] : Real(record[k]); }
+  Real operator[](int k) const {
+    if (k >= brick_record::stiffness) return stiffness[k - brick_record::stiffness];
+    return k >= map && k < map + map_size ? shape[k - map] : Real(record[k]);
+  }
 
  private:
   void set_moduli(const HourglassFlow& flow) {
@@ -159,11 +163,10 @@ struct FlowedReference {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) metric(i, j) = dot(side[i], side[j]);
 
-    Real* const stiffness = &changed[brick_record::stiffness - first];
     const Real volume = record[brick_record::volume];
-    set_class(flow, volume, metric(0, 0), metric(1, 1), metric(0, 1), stiffness);
-    set_class(flow, volume, metric(0, 0), metric(2, 2), metric(0, 2), stiffness + 6);
-    set_class(flow, volume, metric(1, 1), metric(2, 2), metric(1, 2), stiffness + 12);
+    set_class(flow, volume, metric(0, 0), metric(1, 1), metric(0, 1), &stiffness[0]);
+    set_class(flow, volume, metric(0, 0), metric(2, 2), metric(0, 2), &stiffness[6]);
+    set_class(flow, volume, metric(1, 1), metric(2, 2), metric(1, 2), &stiffness[12]);
     for (int i = 0; i < 3; ++i) stiffness[18 + i] = ((1.0 / 9.0) * flow.young) * volume / (metric(i, i) * metric(i, i));
   }
 

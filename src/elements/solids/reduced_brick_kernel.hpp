@@ -50,6 +50,29 @@ std::array<T, 12> hourglass_strains(const HexahedronCoefficients<T>& c, const st
           dot(q[2], c[1]), dot(q[1], c[2]), q2c2 + q3c3, dot(q[3], c[0]), dot(q[3], c[1]), dot(q[3], c[2])};
 }
 
+/// The record of an isotropic element as that of an anisotropic one. Plane stress in the two axes of a class has the moduli
+/// 2 G (h^ac h^bd + nu / (1 - nu) h^ab h^cd), h the inverse of their metric: h11, h12 and h22 say all, times the root of k11 / h11^2.
+template <class Reference>
+struct IsotropicShape {
+  const Reference& record;
+  double poisson;
+
+  auto operator[](int k) const {
+    const int entry = k - brick_record::stiffness, moduli = 18, root = brick_record::stiffness + 3 * (entry / 6);
+    if (entry < 0) return record[k];
+    if (entry >= moduli) return record[k - moduli / 2];
+    const auto h11 = record[root], h12 = record[root + 1], h22 = record[root + 2];
+    switch (entry % 6) {
+      case 0: return h11 * h11;
+      case 1: return (1.0 - poisson) * (h12 * h12) + poisson * (h11 * h22);
+      case 2: return h11 * h12;
+      case 3: return h22 * h22;
+      case 4: return h22 * h12;
+      default: return (0.5 * (1.0 - poisson)) * (h11 * h22) + (0.5 * (1.0 + poisson)) * (h12 * h12);
+    }
+  }
+};
+
 /// Generalised stresses of those strains.
 template <class T, class Reference>
 std::array<T, 12> hourglass_stresses(const std::array<T, 12>& strain, const Reference& reference) {

@@ -97,14 +97,31 @@ double overlap(const Gradients& gradients, const Gradients& coefficients) {
   return std::min(1.0, shared(0, 0) + shared(1, 1) + shared(2, 2));
 }
 
+/// h11, h12, h22 of IsotropicShape: k11 = h11^2, k13 = h11 h12, k22 = h22^2.
+std::array<double, 3> roots_of_class(const Matrix33& moduli) {
+  const double first = std::sqrt(moduli(0, 0));
+  return {first, moduli(0, 2) / first, std::sqrt(moduli(1, 1))};
+}
+
 /// HOURGLASS=STIFFNESS: energy k |q|^2 / 2 with 0.5 % of the dilatational stiffness of the uniform strain.
 constexpr double stiffness_control_factor = 0.005;
 
 }  // namespace
 
-std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeometry& geometry, const SolidMaterial& material,
-                                                            const Section& section, bool flows) {
-  std::array<double, brick_record::size> record{};
+std::optional<double> isotropic_poisson_ratio(const SolidMaterial& material) {
+  constexpr double round_off = 1e-12;
+  const double lame = material.stiffness[1], shear = material.stiffness[21];
+  for (int i = 0; i < 6; ++i)
+    for (int j = 0; j < 6; ++j) {
+      const double normal = (i < 3 && j < 3 ? lame : 0.0) + (i == j && i < 3 ? 2.0 * shear : 0.0), expected = i == j && i >= 3 ? shear : normal;
+      if (!(std::abs(material.stiffness[6 * i + j] - expected) <= round_off * (lame + 2.0 * shear))) return std::nullopt;
+    }
+  return 0.5 * lame / (lame + shear);
+}
+
+std::array<double, brick_record::most> reduced_brick_record(const HexahedronGeometry& geometry, const SolidMaterial& material,
+                                                            const Section& section, BrickHourglass kind) {
+  std::array<double, brick_record::most> record{};
   Gradients gradients, coefficients;
   for (int k = 0; k < 7; ++k) {
     for (int i = 0; i < 3; ++i) {
@@ -122,7 +139,7 @@ std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeom
   record[brick_record::overlap] = overlap(gradients, coefficients);
 
   double* stiffness = &record[brick_record::stiffness];
-  if (section.hourglass == HourglassControl::stiffness) {
+  if (kind == BrickHourglass::scalar) {
     const double modulus = material.volumetric_modulus + 2.0 * material.shear_modulus;
     const double density = section.hourglass_scale * stiffness_control_factor * modulus * (metric(0, 0) + metric(1, 1) + metric(2, 2));
     stiffness[0] = density * geometry.volume;
@@ -132,7 +149,7 @@ std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeom
   Matrix33 axes;
   for (int i = 0; i < 3; ++i)
     for (int k = 0; k < 3; ++k) axes(i, k) = coefficients(i, k);
-  if (flows) {  // each vector is in two classes, of which plane stress of both normal strains is the stiffest: 2/3 E / (1 - nu)
+  if (kind == BrickHourglass::flowing) {  // each vector is in two classes, of which plane stress of both normal strains is the stiffest: 2/3 E / (1 - nu)
     for (int k = 0; k < 3; ++k)
       for (int i = 0; i < 3; ++i) stiffness[3 * k + i] = axes(i, k);
     const double lame = material.stiffness[1], shear = material.stiffness[21];
@@ -147,14 +164,16 @@ std::array<double, brick_record::size> reduced_brick_record(const HexahedronGeom
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) block(i, j) = compliance(class_strains[c][i], class_strains[c][j]);
     classes[c] = section.hourglass_scale / 3.0 * inverse(block);
-    int entry = 6 * c;
-    for (int i = 0; i < 3; ++i)
-      for (int j = i; j < 3; ++j) stiffness[entry++] = geometry.volume * classes[c](i, j);
+    if (kind == BrickHourglass::anisotropic)
+      for (int i = 0; i < 3; ++i)
+        for (int j = i; j < 3; ++j) *stiffness++ = geometry.volume * classes[c](i, j);
+    else
+      for (const double root : roots_of_class(geometry.volume * classes[c])) *stiffness++ = root;
   }
   Vector3<double> last;
   for (int i = 0; i < 3; ++i) {
     last[i] = section.hourglass_scale / 9.0 / compliance(i, i);
-    stiffness[18 + i] = geometry.volume * last[i];
+    *stiffness++ = geometry.volume * last[i];
   }
   record[brick_record::hourglass_bound] = hourglass_bound(classes, last, axes);
   return record;

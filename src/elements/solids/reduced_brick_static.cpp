@@ -40,9 +40,9 @@ std::array<Vector3<T>, 8> ReducedBrick::static_forces(const HexahedronCoefficien
     return forces(flowed(factor, q), shape);
   }
   const auto q = hourglass_vectors(c, f, reference);
-  if (!enhanced_)
+  if (hourglass_ == Hourglass::scalar)
     return nodal_forces(conjugates_with_scalar(scalar_hourglass_forces(q, reference), integrated, reference));
-  return forces(q, reference);
+  return with_moduli(reference, [&](const auto& shape) { return forces(q, shape); });
 }
 
 void ReducedBrick::advance_shape(const HexahedronCoefficients<double>& c, const Matrix3<double>& f, const Matrix3<double>& stress,

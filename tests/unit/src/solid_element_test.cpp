@@ -282,6 +282,22 @@ TEST(IncompatibleModes, SettleInExplicitCycles) {
   EXPECT_LT(error(), 1e-12);
 }
 
+/// The hourglass moduli of an isotropic C3D8R are kept in fewer numbers than those of one that is so but for 1e-9.
+TEST(ReducedBrick, IsotropicHourglassModuliAreTheAnisotropicOnes) {
+  const double shear = 1000.0 / 2.6;
+  SolidOptions isotropic, other;
+  other.law = "engineering-constants";
+  other.parameters = {1000.0, 1000.0 + 1e-6, 1000.0, 0.3, 0.3, 0.3, shear, shear, shear};
+  std::array<Eigen::VectorXd, 2> force;
+  for (const int i : {0, 1}) {
+    SolidCase c = make_block(i == 0 ? isotropic : other, {{1, 1, 1}, {1.0, 1.5, 0.7}, 0.2, true});
+    shake(c, 0.1);
+    Eigen::MatrixXd stiffness;
+    ASSERT_TRUE(c.linearize(0, force[i], stiffness));
+  }
+  EXPECT_LT((force[0] - force[1]).norm(), 1e-8 * force[0].norm());
+}
+
 INSTANTIATE_TEST_SUITE_P(All, SolidElement, ::testing::ValuesIn(all_parameters()));
 
 }  // namespace
