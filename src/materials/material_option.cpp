@@ -11,7 +11,7 @@ namespace balocco {
 
 namespace {
 
-std::map<std::string, OptionSpec, std::less<>>& table() {
+std::map<std::string, OptionSpec, std::less<>>& options_by_name() {
   static std::map<std::string, OptionSpec, std::less<>> options;
   return options;
 }
@@ -19,13 +19,13 @@ std::map<std::string, OptionSpec, std::less<>>& table() {
 }  // namespace
 
 const OptionSpec* find_material_option(std::string_view name) {
-  const auto found = table().find(name);
-  return found == table().end() ? nullptr : &found->second;
+  const auto found = options_by_name().find(name);
+  return found == options_by_name().end() ? nullptr : &found->second;
 }
 
 std::vector<const OptionSpec*> material_options() {
   std::vector<const OptionSpec*> options;
-  for (const auto& entry : table()) options.push_back(&entry.second);
+  for (const auto& entry : options_by_name()) options.push_back(&entry.second);
   return options;
 }
 
@@ -36,7 +36,7 @@ const MaterialOption* find_option(const Material& material, std::string_view nam
 
 RegisterOption::RegisterOption(OptionSpec option) {
   const std::string name = option.name;
-  if (!table().emplace(name, std::move(option)).second) throw std::logic_error("material option " + name + " is registered twice");
+  if (!options_by_name().emplace(name, std::move(option)).second) throw std::logic_error("material option " + name + " is registered twice");
 }
 
 }  // namespace balocco
