@@ -52,10 +52,11 @@ void describe_history(const Hdf5File& file, const std::string& step, Report& rep
   for (const std::string& name : file.children(step + "/history")) {
     const std::string group = step + "/history/" + name;
     std::vector<std::string> variables;
+    const std::string axis = history_axis(file, group);
     for (const std::string& variable : file.children(group)) {
-      if (variable != "time") variables.push_back(variable);
+      if (variable != axis) variables.push_back(variable);
     }
-    const hsize_t rows = file.exists(group + "/time") ? file.extent(group + "/time")[0] : 0;
+    const hsize_t rows = axis.empty() ? 0 : file.extent(group + "/" + axis)[0];
     const std::string set = file.has_attribute(group, "set") ? file.text_attribute(group, "set") : "";
     report.line("    history {:<24} {:<24} {:>7} rows  {}", name, set, rows, joined(variables));
   }
@@ -77,7 +78,8 @@ void describe_step(const Hdf5File& file, const ResultsIndex& index, const std::s
   const auto modes = std::ranges::count_if(index.modes, [&](const auto& mode) { return mode.path.starts_with(step + "/"); });
   if (modes > 0) report.line("    {} modes", modes);
   if (last != nullptr) {
-    report.line("    last frame at time {:g}, increment {}", last->time, last->increment);
+    report.line("    last frame at {} {:g}, increment {}", last->frequency ? "frequency" : "time", last->frequency.value_or(last->time),
+                last->increment);
     report.line("      node  {}", names_of(last->nodes));
     for (const FieldBlock& block : last->elements) report.line("      {}  {}", block.type, names_of(block));
   }

@@ -121,7 +121,8 @@ void JobObserver::Implementation::start(const ResultSource& running, std::int32_
   last.increment = state.increment;
   last.step_time = state.step_time;
   last.total_time = state.total_time;
-  if (state.increment == 0) {
+  // A harmonic response has no start.
+  if (state.increment == 0 && !current().is_harmonic()) {
     plan->history.sample(running, last, true);
     FrameVariables all;
     for (const FieldOutput& output : current().field_outputs) all.add(output);
@@ -165,7 +166,9 @@ void JobObserver::Implementation::look_at_clock(const Progress& progress) {
 }
 
 void JobObserver::Implementation::write_status(const ResultSource& running, const Progress& progress, const Requests& requests) {
-  if (current().has_few_increments()) {
+  if (current().is_harmonic()) {
+    status->harmonic_line(progress);
+  } else if (current().has_few_increments()) {
     const EnergyBalance energies = running.energies();
     status->static_line(progress, energies.work, energies.internal);
   } else if (plan->status->due(progress.step_time, progress.increment, progress.step_finished) || requests.info) {
@@ -231,8 +234,9 @@ double JobObserver::Implementation::next_due() const {
   return next;
 }
 
-/// Everything that the step's frames hold, where the analysis stands.
+/// Everything that the step's frames hold, where the analysis stands; a harmonic response stands nowhere.
 void JobObserver::Implementation::write_last_frame() {
+  if (current().is_harmonic()) return;
   FrameVariables all;
   for (const FieldOutput& output : current().field_outputs) all.add(output);
   last.increment = source->state().increment;

@@ -336,6 +336,17 @@ std::string PrintTables::element_tables(const ResultSource& source, const Reques
   return text;
 }
 
+std::string PrintTables::tables(const ResultSource& source, const Request& request, double time) const {
+  using Kind = PrintOutput::Kind;
+  switch (request.output->kind) {
+    case Kind::nodes: return nodal_tables(source, request, time);
+    case Kind::elements: return element_tables(source, request, time);
+    case Kind::section: return section_table(model_, communicator_, domain_, source, *request.output, time);
+    case Kind::contact: return contact_tables(model_, communicator_, source, *request.output, time);
+  }
+  return "";
+}
+
 void PrintTables::advance(const ResultSource& source, const Progress& progress) {
   std::string text;
   const bool modes = model_.steps[step_].seeks_modes();
@@ -343,17 +354,16 @@ void PrintTables::advance(const ResultSource& source, const Progress& progress) 
     const bool buckles = std::holds_alternative<BuckleProcedure>(model_.steps[step_].procedure);
     text = (buckles ? load_factor_table(modes_) : eigenvalue_tables(modes_)) + tables_of_modes_;
   }
+  std::vector<const Request*> due;
   for (auto& request : requests_) {
     if (modes || !request.schedule.due(progress.step_time, progress.increment, progress.step_finished)) continue;
     request.schedule.pass(progress.step_time);
-    if (text.empty()) text = increment_heading(progress.increment);
-    const double time = progress.total_time;
-    if (request.output->kind == PrintOutput::Kind::nodes) text += nodal_tables(source, request, time);
-    if (request.output->kind == PrintOutput::Kind::elements) text += element_tables(source, request, time);
-    if (request.output->kind == PrintOutput::Kind::section)
-      text += section_table(model_, communicator_, domain_, source, *request.output, time);
-    if (request.output->kind == PrintOutput::Kind::contact) text += contact_tables(model_, communicator_, source, *request.output, time);
+    due.push_back(&request);
   }
+  if (!due.empty()) text += increment_heading(progress.increment);
+  const double time = model_.steps[step_].is_harmonic() ? progress.frequency : progress.total_time;
+  for (const ResultPart& part : source.parts())
+    for (const Request* request : due) text += tables(*part.source, *request, time);
   write(text);
 }
 

@@ -14,6 +14,7 @@
 
 namespace balocco {
 
+/// Of a harmonic response the tables of all real parts come before those of the imaginary parts, with the frequency for the time.
 /// Every function is collective and throws SystemError on every rank alike when the file cannot be written.
 class PrintTables {
  public:
@@ -52,6 +53,7 @@ class PrintTables {
                           double time) const;
   std::string nodal_tables(const ResultSource& source, const Request& request, double time) const;
   std::string element_tables(const ResultSource& source, const Request& request, double time) const;
+  std::string tables(const ResultSource& source, const Request& request, double time) const;
   std::string table(const Request& request, const std::string& variable, const std::vector<int>& points,
                     const std::vector<double>& values, double time) const;
   double kinetic_energy(const ElementGroup& group, std::int32_t element, std::span<const double> velocity) const;

@@ -214,16 +214,17 @@ void Comparison::compare_rows(const std::string& group, const std::string& name)
     return;
   }
   here_.variable = fmt::format("{} of history {}", name, label);
-  const auto times = a_.read(group + "/time"), a = a_.read(path), b = b_.read(path);
+  const std::string axis = history_axis(a_, group);
+  const auto marks = a_.read(group + "/" + axis), a = a_.read(path), b = b_.read(path);
   if (a.size() != b.size()) return tell(fmt::format("{} has another shape in B", path.substr(1)));
-  rows_ += name == "time" ? static_cast<int>(left[0]) : 0;
+  rows_ += name == axis ? static_cast<int>(left[0]) : 0;
   const double scale = std::max(magnitude(a), magnitude(b));
   const std::size_t columns = left[0] > 0 ? a.size() / left[0] : 1;
   const auto found = spread(a, b, relative_ * scale);
   if (!found) return;
   for (const auto i : {found->first, found->largest}) {
-    here_.time = times[i / columns];
-    here_.moment = fmt::format("time {:.10g}", here_.time);
+    here_.time = marks[i / columns];
+    here_.moment = fmt::format("{} {:.10g}", axis, here_.time);
     Place place{.a = a[i], .b = b[i], .difference = difference(a[i], b[i]), .scale = scale};
     place.where = fmt::format("row {}", i / columns + 1);
     if (columns > 1) place.where += fmt::format(", component {}", i % columns + 1);

@@ -112,7 +112,8 @@ void ResultsFile::finish_step(std::int32_t step, double total_time) {
 void ResultsFile::add_frame(const FrameWriter& writer, const FrameVariables& variables, const ResultSource& source,
                             const Progress& progress, History& history) {
   add_history(history);
-  const FrameWriter::Label label{frame_path(step_, frames_in_step_), progress.total_time, progress.step_time, progress.increment};
+  FrameWriter::Label label{frame_path(step_, frames_in_step_), progress.total_time, progress.step_time, progress.increment};
+  if (model_->steps[step_].is_harmonic()) label.frequency = progress.frequency;
   index_.frames.push_back(writer.write(path_, label, source, variables));
   ++frames_in_step_;
   write_xdmf();
@@ -151,7 +152,10 @@ bool ResultsFile::shows(std::int32_t step, double total_time) const {
 void ResultsFile::write_xdmf() const {
   communicator_->together([&] {
     if (!communicator_->is_root()) return;
-    replace_file(xdmf_path_, xdmf_text(index_, std::filesystem::path(path_).filename().string()));
+    const auto results = std::filesystem::path(path_).filename().string();
+    if (!model_->steps[step_].is_harmonic()) return replace_file(xdmf_path_, xdmf_text(index_, results));
+    const auto own = std::filesystem::path(xdmf_path_).replace_extension(fmt::format(".step_{}.xdmf", step_ + 1));
+    replace_file(own.string(), harmonic_xdmf_text(index_, step_, results));
   });
 }
 

@@ -27,7 +27,7 @@ class ResultsFile {
   void start_step(std::int32_t step, double total_time);
   void finish_step(std::int32_t step, double total_time);
 
-  /// Adds a frame and what the histories have buffered, and describes it in the XDMF.
+  /// Adds a frame and what the histories have buffered, and describes it in the XDMF; of harmonic steps in JOB.step_<k>.xdmf.
   void add_frame(const FrameWriter& writer, const FrameVariables& variables, const ResultSource& source,
                  const Progress& progress, History& history);
   /// Adds a mode, and describes all in JOB.modes.xdmf.

@@ -87,7 +87,13 @@ std::vector<FrameWriter::Field> FrameWriter::plan(const ResultSource& source, co
     fields[i].points = static_cast<int>(sizes[2 * i + 1]);
   }
   std::erase_if(fields, [](const Field& field) { return field.components == 0; });
-  return fields;
+  std::vector<Field> of_parts;
+  for (const Field& field : fields)
+    for (const ResultPart& part : source.parts()) {
+      of_parts.push_back(field);
+      of_parts.back().part = part;
+    }
+  return of_parts;
 }
 
 const RowExchange& FrameWriter::exchange(const Field& field) const {
@@ -102,9 +108,9 @@ std::size_t FrameWriter::bytes(const std::vector<Field>& fields) const {
   return sum;
 }
 
-std::vector<double> FrameWriter::nodal_values(const Field& field, const ResultSource& source) const {
+std::vector<double> FrameWriter::nodal_values(const Field& field) const {
   std::vector<double> local(static_cast<std::size_t>(domain_->size()) * field.components);
-  source.nodal(field.variable, local);
+  field.part.source->nodal(field.variable, local);
   return held_values(local, field.components);
 }
 
@@ -118,7 +124,8 @@ std::vector<double> FrameWriter::held_values(std::span<const double> local, int 
   return held;
 }
 
-std::vector<double> FrameWriter::element_values(const Field& field, const ResultSource& source) const {
+std::vector<double> FrameWriter::element_values(const Field& field) const {
+  const ResultSource& source = *field.part.source;
   const TableRows& rows = tables_[field.table];
   std::vector<double> values(rows.exchange.held() * field.row_values(), 0.0);
   double* row = values.data();
@@ -157,9 +164,9 @@ std::vector<bool> FrameWriter::members(const Field& field) const {
   return inside;
 }
 
-std::vector<double> FrameWriter::values(const Field& field, const ResultSource& source) const {
+std::vector<double> FrameWriter::values(const Field& field) const {
   const bool nodal = field.place == Field::Place::node;
-  std::vector<double> values = nodal ? nodal_values(field, source) : element_values(field, source);
+  std::vector<double> values = nodal ? nodal_values(field) : element_values(field);
   if (field.sets.empty()) return values;
   const std::vector<bool> inside = members(field);
   auto value = values.begin();
@@ -177,8 +184,7 @@ std::vector<double> FrameWriter::values(const Field& field, const ResultSource& 
   return values;
 }
 
-FrameRecord FrameWriter::write_fields(ParallelFile& file, const Hdf5Id& frame, const std::vector<Field>& fields,
-                                      const ResultSource& source) const {
+FrameRecord FrameWriter::write_fields(ParallelFile& file, const Hdf5Id& frame, const std::vector<Field>& fields) const {
   FrameRecord written;
   const Hdf5Id node_group = file.create_group(frame, "node"), element_group = file.create_group(frame, "element");
   Hdf5Id table_group;
@@ -195,7 +201,7 @@ FrameRecord FrameWriter::write_fields(ParallelFile& file, const Hdf5Id& frame, c
     const ParallelFile::Layout layout = field.layout();
     const RowExchange& rows = exchange(field);
     file.write(field.place == Field::Place::node ? node_group : table_group, field.name(), rows,
-               rows.to_slab(values(field, source), field.row_values()), layout);
+               rows.to_slab(values(field), field.row_values()), layout);
     Extent extent{static_cast<hsize_t>(rows.total())};
     extent.insert(extent.end(), layout.columns.begin(), layout.columns.end());
     block->fields.push_back({field.name(), extent, field.precision == Precision::single_ ? 4u : 8u});
@@ -218,13 +224,15 @@ FrameRecord FrameWriter::write(const std::string& path, const Label& label, cons
     file.set_attribute(frame, "time", label.time);
     file.set_attribute(frame, "step_time", label.step_time);
     file.set_attribute(frame, "increment", label.increment);
-    written = write_fields(file, frame, fields, source);
+    if (label.frequency) file.set_attribute(frame, "frequency", *label.frequency);
+    written = write_fields(file, frame, fields);
     file.link(frame, label.path);
   }
   file.close();
   written.path = label.path;
   written.time = label.time;
   written.increment = label.increment;
+  written.frequency = label.frequency;
   return written;
 }
 

@@ -1,6 +1,7 @@
 // Writes one frame of nodal and element variables: complete or absent.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +33,7 @@ class FrameWriter {
     std::string path;  // of the frame in the file
     double time = 0.0, step_time = 0.0;
     std::int64_t increment = 0;
+    std::optional<double> frequency = {};  // of a harmonic response
   };
   /// Adds the frame to an existing file. Collective. @throws SystemError on every rank alike.
   FrameRecord write(const std::string& file, const Label& label, const ResultSource& source,
@@ -48,23 +50,23 @@ class FrameWriter {
     int components = 0, points = 1;
     ParallelFile::Precision precision;
     std::vector<std::int32_t> sets;
+    ResultPart part = {};
 
     int row_values() const { return place == Place::points ? points * components : components; }
-    std::string name() const { return place == Place::points ? variable + "_IP" : variable; }
+    std::string name() const { return variable + (place == Place::points ? "_IP" : "") + std::string(part.suffix); }
     ParallelFile::Layout layout() const;
   };
   /// The fields of a frame that exist in this model, the same on every rank. Collective.
   std::vector<Field> plan(const ResultSource& source, const FrameVariables& variables) const;
   std::size_t bytes(const std::vector<Field>& fields) const;
   const RowExchange& exchange(const Field& field) const;
-  std::vector<double> values(const Field& field, const ResultSource& source) const;
-  std::vector<double> nodal_values(const Field& field, const ResultSource& source) const;
+  std::vector<double> values(const Field& field) const;
+  std::vector<double> nodal_values(const Field& field) const;
   std::vector<double> held_values(std::span<const double> local, int components) const;
-  std::vector<double> element_values(const Field& field, const ResultSource& source) const;
+  std::vector<double> element_values(const Field& field) const;
   /// Which rows of the field's table belong to its sets.
   std::vector<bool> members(const Field& field) const;
-  FrameRecord write_fields(ParallelFile& file, const Hdf5Id& frame, const std::vector<Field>& fields,
-                           const ResultSource& source) const;
+  FrameRecord write_fields(ParallelFile& file, const Hdf5Id& frame, const std::vector<Field>& fields) const;
 
   const Model* model_;
   const Communicator* communicator_;

@@ -54,7 +54,7 @@ Component split_tensor(const std::string& name) {
 /// Collective quantities are asked for once a row, in the same order on every rank.
 class History::Row {
  public:
-  Row(const ResultSource& source, std::int32_t local_nodes) : source_(source), local_nodes_(local_nodes) {}
+  Row(const ResultSource& source, std::int32_t local_nodes) : source_(source), parts_(source.parts()), local_nodes_(local_nodes) {}
 
   const EnergyBalance& energies() {
     if (!energies_) energies_ = source_.energies();
@@ -64,22 +64,23 @@ class History::Row {
     const auto known = contacts_.find(pair);
     return known != contacts_.end() ? known->second : contacts_.emplace(pair, source_.contact(pair)).first->second;
   }
-  const std::vector<double>& nodal(const std::string& variable, int components) {
-    std::vector<double>& values = nodal_[variable];
+  const std::vector<double>& nodal(const std::string& variable, std::size_t part, int components) {
+    std::vector<double>& values = nodal_[{variable, part}];
     if (values.empty() && local_nodes_ > 0) {
       values.resize(static_cast<std::size_t>(local_nodes_) * components);
-      source_.nodal(variable, values);
+      parts_[part].source->nodal(variable, values);
     }
     return values;
   }
-  const ResultSource& source() const { return source_; }
+  const ResultSource& part(std::size_t number) const { return *parts_[number].source; }
 
  private:
   const ResultSource& source_;
+  const std::vector<ResultPart> parts_;
   std::int32_t local_nodes_;
   std::optional<EnergyBalance> energies_;
   std::map<std::int32_t, ContactResultant> contacts_;
-  std::map<std::string, std::vector<double>> nodal_;
+  std::map<std::pair<std::string, std::size_t>, std::vector<double>> nodal_;
 };
 
 History::Group& History::group(const std::string& name, std::size_t request) {
@@ -101,6 +102,17 @@ struct History::Builder {
   static void add(Group& group, Channel channel) {
     const bool known = std::any_of(group.channels.begin(), group.channels.end(), [&](const Channel& c) { return c.name == channel.name; });
     if (!known) group.channels.push_back(std::move(channel));
+  }
+
+  /// A channel for each part of what is told.
+  void add_parts(Group& group, const Channel& whole) const {
+    const auto parts = source.parts();
+    for (std::size_t part = 0; part < parts.size(); ++part) {
+      Channel channel = whole;
+      channel.name += parts[part].suffix;
+      channel.part = part;
+      add(group, std::move(channel));
+    }
   }
 
   template <class Set, class Members>
@@ -141,7 +153,7 @@ struct History::Builder {
         channel.columns = part.index < 0 ? components : 1;
         channel.source_columns = components;
         channel.place = local >= 0 && domain.owned[local] ? local : -1;
-        add(group_of(set, set.nodes, fmt::format("node_{}", history.model_->nodes.id[row]), request), std::move(channel));
+        add_parts(group_of(set, set.nodes, fmt::format("node_{}", history.model_->nodes.id[row]), request), channel);
       }
     }
   }
@@ -179,7 +191,7 @@ struct History::Builder {
     channel.columns = part.index < 0 ? components : 1;
     channel.source_columns = components;
     const std::int64_t id = history.model_->elements[element.table].id[element.row];
-    add(group_of(set, set.elements, fmt::format("element_{}", id), request), std::move(channel));
+    add_parts(group_of(set, set.elements, fmt::format("element_{}", id), request), channel);
     return true;
   }
 
@@ -230,7 +242,7 @@ void History::fill(const Channel& channel, Row& row, double* values) const {
       return;
     }
     case Kind::nodal: {
-      const auto& nodal = row.nodal(channel.variable, channel.source_columns);
+      const auto& nodal = row.nodal(channel.variable, channel.part, channel.source_columns);
       if (channel.place < 0) return;
       std::copy_n(nodal.begin() + static_cast<std::ptrdiff_t>(channel.place) * channel.source_columns + channel.first,
                   channel.columns, values);
@@ -239,7 +251,7 @@ void History::fill(const Channel& channel, Row& row, double* values) const {
     case Kind::element: {
       if (channel.place < 0) return;
       std::vector<double> all(channel.source_columns);
-      row.source().element_mean(channel.group_index, channel.variable, channel.place, all);
+      row.part(channel.part).element_mean(channel.group_index, channel.variable, channel.place, all);
       std::copy_n(all.begin() + channel.first, channel.columns, values);
       return;
     }
@@ -272,7 +284,7 @@ void History::sample(const ResultSource& source, const Progress& progress, bool 
   if (!communicator_->is_root()) return;
   auto next = values.begin();
   for (Group* group : taken) {
-    group->times.push_back(progress.total_time);
+    group->axis.push_back(model_->steps[step_].is_harmonic() ? progress.frequency : progress.total_time);
     for (Channel& channel : group->channels) {
       channel.rows.insert(channel.rows.end(), next, next + channel.columns);
       next += channel.columns;
@@ -287,21 +299,21 @@ double History::next_due() const {
 }
 
 bool History::buffered() const {
-  return std::any_of(groups_.begin(), groups_.end(), [](const Group& group) { return !group.times.empty(); });
+  return std::any_of(groups_.begin(), groups_.end(), [](const Group& group) { return !group.axis.empty(); });
 }
 
 void History::flush(const Hdf5File& file) {
   for (Group& group : groups_) {
-    if (group.times.empty()) continue;
+    if (group.axis.empty()) continue;
     const std::string path = step_path(step_) + "/history/" + group.name;
     for (Channel& channel : group.channels) {
       file.append(path + "/" + channel.name, channel.columns, channel.rows);
       channel.rows.clear();
     }
     if (!group.set.empty() && !file.has_attribute(path, "set")) file.set_attribute(path, "set", group.set);
-    // The times come last: rows that they do not count were cut short.
-    file.append(path + "/time", 1, group.times);
-    group.times.clear();
+    // Where the rows stand comes last: rows that it does not count were cut short.
+    file.append(path + "/" + history_axis(model_->steps[step_]), 1, group.axis);
+    group.axis.clear();
   }
 }
 

@@ -1,4 +1,4 @@
-// History: rows of chosen quantities over time, buffered in memory and appended to /step_<k>/history/<GROUP>. Where a set of one node or
+// History: rows of chosen quantities over time (of harmonic responses over frequency), buffered in memory and appended to /step_<k>/history/<GROUP>. Where a set of one node or
 // element asks, the group's attribute `set` is that set's name.
 #pragma once
 
@@ -45,6 +45,7 @@ class History {
     int source_columns = 1;        // components of `variable`
     std::int32_t place = -1;       // local node if owned, lane of an element if here, contact pair
     std::size_t group_index = 0;   // of the element group
+    std::size_t part = 0;          // of ResultSource::parts()
     std::vector<double> rows = {};  // root: buffered
   };
   struct Group {
@@ -52,7 +53,7 @@ class History {
     std::string set;               // node or element set that asks for this node or element alone
     std::vector<std::size_t> requests;
     std::vector<Channel> channels;
-    std::vector<double> times;     // root: buffered
+    std::vector<double> axis;      // root: times or frequencies, buffered
   };
 
   Group& group(const std::string& name, std::size_t request);

@@ -36,6 +36,7 @@ FrameRecord index_frame(const Hdf5File& file, const std::string& path) {
   auto frame = index_fields(file, path);
   frame.time = file.number_attribute(path, "time");
   frame.increment = file.integer_attribute(path, "increment");
+  if (file.has_attribute(path, "frequency")) frame.frequency = file.number_attribute(path, "frequency");
   return frame;
 }
 
@@ -50,6 +51,14 @@ std::string step_path(std::int32_t step) { return fmt::format("/step_{}", step +
 std::string frame_path(std::int32_t step, std::int64_t frame) { return fmt::format("{}/frame_{}", step_path(step), frame); }
 
 std::string mode_path(std::int32_t step, std::int32_t mode) { return fmt::format("{}/mode_{}", step_path(step), mode); }
+
+std::string history_axis(const Step& step) { return step.is_harmonic() ? "frequency" : "time"; }
+
+std::string history_axis(const Hdf5File& file, const std::string& group) {
+  for (const char* axis : {"time", "frequency"})
+    if (file.exists(group + "/" + axis)) return axis;
+  return "";
+}
 
 std::string hdf5_name(std::string name) {
   std::replace(name.begin(), name.end(), '/', '|');

@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "hdf5_file.hpp"
+#include "model/step.hpp"
 
 namespace balocco {
 
@@ -14,6 +16,11 @@ namespace balocco {
 std::string step_path(std::int32_t step);
 std::string frame_path(std::int32_t step, std::int64_t frame);
 std::string mode_path(std::int32_t step, std::int32_t mode);
+
+/// The dataset of a history group that says where its rows stand: times, of harmonic responses frequencies.
+std::string history_axis(const Step& step);
+/// The same of a group in a file; empty where it has none.
+std::string history_axis(const Hdf5File& file, const std::string& group);
 
 /// A name of the deck as a name in the file: HDF5 takes anything but '/'.
 std::string hdf5_name(std::string name);
@@ -35,6 +42,7 @@ struct FrameRecord {
   std::string path;
   double time = 0.0;  // total
   std::int64_t increment = 0;
+  std::optional<double> frequency;  // of a harmonic response
   FieldBlock nodes;
   std::vector<FieldBlock> elements;
 };

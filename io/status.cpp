@@ -94,7 +94,9 @@ void Status::start_step(std::int32_t step, const State& state) {
   if (!root_) return;
   line(status_, fmt::format("\nStep {} {}: {}, {:g} time units", step + 1, what.name, what.procedure_name(),
                             what.duration()));
-  if (what.has_few_increments()) {
+  if (what.is_harmonic()) {
+    line(status_, fmt::format("{:>6} {:>13} {:>13} {:>10}", "INC", "FREQUENCY", "LARGEST U", "WALL S"));
+  } else if (what.has_few_increments()) {
     line(status_, fmt::format("{:>6} {:>6} {:>13} {:>13} {:>13} {:>11} {:>13} {:>13} {:>10}", "INC", "ITERS", "STEP TIME",
                               "TOTAL TIME", "TIME INC", "RESIDUAL", "ALLWK", "ALLIE", "WALL S"));
   } else {
@@ -125,6 +127,11 @@ void Status::static_line(const Progress& progress, double work, double internal)
                             progress.largest_residual, work, internal, seconds()));
 }
 
+void Status::harmonic_line(const Progress& progress) {
+  if (!root_) return;
+  line(status_, fmt::format("{:>6} {:>13.6g} {:>13.6g} {:>10.2f}", progress.increment, progress.frequency, progress.largest_displacement, seconds()));
+}
+
 void Status::explicit_line(const Progress& progress, const State& state, const EnergyBalance& energies) {
   if (!root_) return;
   const Outlook view = outlook(progress);
@@ -150,10 +157,13 @@ void Status::show(const Progress& progress, bool now) {
   shown_seconds_ = seconds();
   shown_twentieth_ = std::max(shown_twentieth_, twentieth);
   const Step& step = model_->steps[step_];
-  std::string text = fmt::format("Step {} {}: {:3.0f} %, increment {}, time {:.6g} of {:g}, dt {:.4g}", step_ + 1, step.name,
-                                 100.0 * view.fraction, progress.increment, progress.step_time, step.duration(),
-                                 progress.time_increment);
-  if (step.has_few_increments()) {
+  std::string text = fmt::format("Step {} {}: ", step_ + 1, step.name);
+  text += step.is_harmonic() ? fmt::format("frequency {:.6g}, largest displacement {:.4g}", progress.frequency, progress.largest_displacement)
+                             : fmt::format("{:3.0f} %, increment {}, time {:.6g} of {:g}, dt {:.4g}", 100.0 * view.fraction, progress.increment,
+                                           progress.step_time, step.duration(), progress.time_increment);
+  if (step.is_harmonic()) {
+    // It has no iterations, and is over soon.
+  } else if (step.has_few_increments()) {
     text += fmt::format(", {} iterations", progress.iterations);
   } else {
     text += fmt::format(", {:.3g} elements/s, {} left", view.elements_per_second, duration_text(view.remaining));

@@ -21,6 +21,7 @@ class Status {
   void start_step(std::int32_t step, const State& state);
   /// A line of .sta.
   void static_line(const Progress& progress, double work, double internal);
+  void harmonic_line(const Progress& progress);
   void explicit_line(const Progress& progress, const State& state, const EnergyBalance& energies);
   /// One line on a terminal, rewritten in place; elsewhere a line each 5 % of the step. `now`: whatever was shown before.
   void show(const Progress& progress, bool now);

@@ -116,7 +116,17 @@ class XdmfWriter {
 }  // namespace
 
 std::string xdmf_text(const ResultsIndex& index, const std::string& results_name) {
-  return XdmfWriter(index, results_name).text(index.frames);
+  auto frames = index.frames;
+  std::erase_if(frames, [](const FrameRecord& frame) { return frame.frequency.has_value(); });
+  return XdmfWriter(index, results_name).text(frames);
+}
+
+std::string harmonic_xdmf_text(const ResultsIndex& index, std::int32_t step, const std::string& results_name) {
+  auto frames = index.frames;
+  const std::string prefix = step_path(step) + "/";
+  std::erase_if(frames, [&](const FrameRecord& frame) { return !frame.frequency || !frame.path.starts_with(prefix); });
+  for (auto& frame : frames) frame.time = *frame.frequency;
+  return XdmfWriter(index, results_name).text(frames);
 }
 
 std::string modes_xdmf_text(const ResultsIndex& index, const std::string& results_name) {

@@ -16,6 +16,10 @@ inline auto outputs_of(Analysis& analysis) {
                   analysis.body_angular_acceleration, analysis.kinetic_energy);
 }
 
+/// Copies of that.
+using ShownBeside = std::tuple<std::vector<double>, std::vector<double>, std::vector<double>, std::vector<double>,
+                               std::vector<std::array<double, 6>>, std::vector<Point>, std::optional<double>>;
+
 /// The state and all that is shown with it, as they are when this is made.
 class KeptState {
  public:
@@ -35,12 +39,9 @@ class KeptState {
   }
 
  private:
-  using Values = std::vector<double>;
-  using Outputs = std::tuple<Values, Values, Values, Values, std::vector<std::array<double, 6>>, std::vector<Point>, std::optional<double>>;
-
   Analysis& analysis_;
   const State state_;
-  const Outputs outputs_;
+  const ShownBeside outputs_;
 };
 
 }  // namespace balocco

@@ -7,10 +7,9 @@
 #include <memory>
 #include <unsupported/Eigen/MatrixFunctions>
 
-#include "constraints/rigid_body.hpp"
 #include "kept_state.hpp"
-#include "math/rotation.hpp"
 #include "modal_forces.hpp"
+#include "mode_superposition.hpp"
 #include "model/diagnostics.hpp"
 #include "procedures.hpp"
 #include "step_driver.hpp"
@@ -31,13 +30,11 @@ class ModalDynamicStep {
   Outcome run();
 
  private:
-  void add_modal_damping();
   double load_change(double from, double to) const;
   double next_increment(double last) const;
   void make_propagator(double increment);
   void advance(double increment, const Vector& before, const Vector& after);
-  void show(const State& kept, const Vector& loads);
-  void show_bodies();
+  void show(const State& kept, const ModalLoads& loads);
 
   Analysis& analysis_;
   const Step& step_;
@@ -58,29 +55,13 @@ ModalDynamicStep::ModalDynamicStep(Analysis& analysis, const Step& step, Observe
       step_(step),
       procedure_(std::get<ModalDynamicProcedure>(step.procedure)),
       observer_(observer),
-      modes_(analysis.modes) {
-  if (modes_.empty())
-    throw AnalysisError(fmt::format("step '{}': no modes are at hand; put a *FREQUENCY step before it, and run both in one go: checkpoints keep no modes",
-                                    step.name));
-  for (auto& mode : modes_) {
-    const double size = std::sqrt(mode.generalized_mass);
-    for (auto* shape : {&mode.displacement, &mode.rotation, &mode.slots})
-      for (double& value : *shape) value /= size;
-  }
+      modes_(modes_of_unit_mass(analysis, step)) {
   amplitude_ = velocity_ = stiffness_ = Vector::Zero(static_cast<Eigen::Index>(modes_.size()));
   for (std::size_t mode = 0; mode < modes_.size(); ++mode) stiffness_[static_cast<Eigen::Index>(mode)] = modes_[mode].eigenvalue;
   forces_ = std::make_unique<ModalForces>(analysis, modes_);
   damping_ = forces_->damping();
-  add_modal_damping();
+  damping_ += modal_damping(procedure_.damping, modes_).asDiagonal();
   time_points_ = asked_times(step);
-}
-
-void ModalDynamicStep::add_modal_damping() {
-  for (const auto& given : procedure_.damping)
-    for (std::int32_t number = given.first; number <= std::min<std::int32_t>(given.last, static_cast<std::int32_t>(modes_.size())); ++number) {
-      const double square = std::max(modes_[number - 1].eigenvalue, 0.0);
-      damping_(number - 1, number - 1) += 2.0 * given.fraction * std::sqrt(square) + given.alpha + given.beta * square;
-    }
 }
 
 /// The greatest change of a load of the step between two of its times.
@@ -157,55 +138,15 @@ void ModalDynamicStep::advance(double increment, const Vector& before, const Vec
 
 /// The response alone, about the reference configuration, for whoever writes results. What the modes know is of the whole
 /// structure: one node of all stands for it.
-void ModalDynamicStep::show(const State& kept, const Vector& loads) {
+void ModalDynamicStep::show(const State& kept, const ModalLoads& loads) {
   auto& state = analysis_.current;
-  const auto combined = [&](auto shape, const Vector& factors, std::size_t at) {
-    double sum = 0.0;
-    for (std::size_t mode = 0; mode < modes_.size(); ++mode) sum += factors[mode] * (modes_[mode].*shape)[at];
-    return sum;
-  };
-  for (std::int32_t node = 0; node < analysis_.domain.size(); ++node)
-    for (int i = 0; i < 3; ++i) {
-      const auto at = static_cast<std::size_t>(3 * node + i);
-      const double reference = analysis_.model.nodes.coordinates[analysis_.domain.node_row[node]][i];
-      state.position[4 * node + i] = reference + combined(&Mode::displacement, amplitude_, at);
-      state.velocity[4 * node + i] = combined(&Mode::displacement, velocity_, at);
-      if (node >= analysis_.domain.turning) continue;
-      state.rotation[4 * node + i] = combined(&Mode::rotation, amplitude_, at);
-      state.angular_velocity[4 * node + i] = combined(&Mode::rotation, velocity_, at);
-    }
-  for (std::int32_t node = 0; node < analysis_.domain.turning; ++node) {
-    const double* const turn = &state.rotation[4 * node];
-    std::ranges::copy(exponential(Vector3<double>{{turn[0], turn[1], turn[2]}}), &state.orientation[4 * node]);
-  }
-  show_bodies();
+  show_superposition(analysis_, modes_, amplitude_, velocity_);
   forces_->show_multipliers(amplitude_);
-  forces_->show(amplitude_, velocity_, loads - damping_ * velocity_ - stiffness_.cwiseProduct(amplitude_));
+  forces_->show(amplitude_, velocity_, loads.on_modes - damping_ * velocity_ - stiffness_.cwiseProduct(amplitude_), loads.on_held);
   analysis_.kinetic_energy = analysis_.communicator.rank() == 0 ? 0.5 * velocity_.squaredNorm() : 0.0;
   if (const auto node = analysis_.domain.local_node[0]; node >= 0) {
     state.nodal_work[node].external = kept.nodal_work[node].external + work_;
     state.nodal_work[node].damping = kept.nodal_work[node].damping + dissipated_;
-  }
-}
-
-void ModalDynamicStep::show_bodies() {
-  auto& bodies = analysis_.current.rigid_bodies;
-  const auto at_rest = initial_rigid_bodies(analysis_.model);
-  for (std::size_t body = 0; body < bodies.size(); ++body) {
-    const auto node = static_cast<std::size_t>(analysis_.domain.local_node[analysis_.model.rigid_bodies[body].reference_node]);
-    auto& shown = bodies[body];
-    Point turn{}, spin{};
-    for (std::size_t i = 0; i < 3; ++i)
-      for (std::size_t mode = 0; mode < modes_.size(); ++mode) {
-        turn[i] += amplitude_[static_cast<Eigen::Index>(mode)] * modes_[mode].rotation[3 * node + i];
-        spin[i] += velocity_[static_cast<Eigen::Index>(mode)] * modes_[mode].rotation[3 * node + i];
-      }
-    shown.orientation = at_rest[body].orientation;
-    shown.rotation = {};
-    rotate(shown, turn);
-    shown.angular_velocity = spin;
-    std::copy_n(&analysis_.current.position[4 * node], 3, shown.position.begin());
-    std::copy_n(&analysis_.current.velocity[4 * node], 3, shown.velocity.begin());
   }
 }
 
@@ -214,8 +155,8 @@ Outcome ModalDynamicStep::run() {
   KeptState keeper(analysis_);
   const State& kept = keeper.state();
   const double total_start = state.total_time;
-  Vector before = forces_->loads(step_, 0.0, total_start);
-  forces_->show(amplitude_, velocity_, before);
+  ModalLoads before = forces_->loads(step_, 0.0, total_start);
+  forces_->show(amplitude_, velocity_, before.on_modes, before.on_held);
   observer_.step_started(analysis_, state.step);
   observer_.log(fmt::format("step {} '{}': modal dynamics, {} modes", state.step + 1, step_.name, modes_.size()));
   double last = 0.0;
@@ -231,8 +172,8 @@ Outcome ModalDynamicStep::run() {
     last = increment;
     const double step_time = ends ? procedure_.duration : shown.step_time + increment;
     state = kept;
-    const Vector after = forces_->loads(step_, step_time, total_start + step_time);
-    advance(increment, before, after);
+    const ModalLoads after = forces_->loads(step_, step_time, total_start + step_time);
+    advance(increment, before.on_modes, after.on_modes);
     before = after;
     state.linear = state.dynamic = true;
     state.increment = shown.increment + 1;

@@ -39,7 +39,6 @@ ModalForces::ModalForces(Analysis& analysis, const std::vector<Mode>& modes)
   const auto& map = system_.map();
   for (std::int32_t slot = 0; slot < map.first_multiplier(); ++slot)
     if (map.role(slot) == ImplicitDofMap::Role::prescribed) held_slots_.push_back(slot);
-  held_loads_ = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(held_slots_.size()));
   const auto here = system_.configuration();
   if (analysis_.current.linear) system_.restore(system_.reference());
   find_motions();
@@ -63,20 +62,24 @@ void ModalForces::find_motions() {
   }
 }
 
-/// Block * motion of its freedoms in each mode.
-void ModalForces::add_product(std::span<const Inertial> freedoms, std::span<const double> block, PerMode& products) const {
+/// Block * motion of its freedoms in a shape, 3 values a node.
+void ModalForces::add_product(std::span<const Inertial> freedoms, std::span<const double> block, const std::vector<double>& displacement,
+                              const std::vector<double>& rotation, std::vector<double>& product) const {
   const std::size_t size = 3 * freedoms.size();
-  for (std::size_t mode = 0; mode < modes_.size(); ++mode)
-    for (std::size_t a = 0; a < freedoms.size(); ++a) {
-      Point force{};
-      for (std::size_t b = 0; b < freedoms.size(); ++b) {
-        const auto& shape = freedoms[b].spins ? modes_[mode].rotation : modes_[mode].displacement;
-        const double* const moved = &shape[3 * static_cast<std::size_t>(freedoms[b].node)];
-        for (std::size_t i = 0; i < 3; ++i)
-          for (std::size_t j = 0; j < 3; ++j) force[i] += block[size * (3 * a + i) + 3 * b + j] * moved[j];
-      }
-      scatter((freedoms[a].spins ? spin_ : motion_)[freedoms[a].node], force.data(), products[mode]);
+  for (std::size_t a = 0; a < freedoms.size(); ++a) {
+    Point force{};
+    for (std::size_t b = 0; b < freedoms.size(); ++b) {
+      const double* const moved = &(freedoms[b].spins ? rotation : displacement)[3 * static_cast<std::size_t>(freedoms[b].node)];
+      for (std::size_t i = 0; i < 3; ++i)
+        for (std::size_t j = 0; j < 3; ++j) force[i] += block[size * (3 * a + i) + 3 * b + j] * moved[j];
     }
+    scatter((freedoms[a].spins ? spin_ : motion_)[freedoms[a].node], force.data(), product);
+  }
+}
+
+void ModalForces::add_products(std::span<const Inertial> freedoms, std::span<const double> block, PerMode& products) const {
+  for (std::size_t mode = 0; mode < modes_.size(); ++mode)
+    add_product(freedoms, block, modes_[mode].displacement, modes_[mode].rotation, products[mode]);
 }
 
 /// About the state that the modes are about, with the forces of their constraints.
@@ -121,13 +124,13 @@ void ModalForces::add_element_damping(const ElementGroup& group, std::size_t ind
     motion.velocity_slope = 1.0;
     if (is_damper) group.linearize(element, motion, history, unused, force, faster);
     for (std::size_t i = 0; i < block.size(); ++i) block[i] = is_damper ? faster[i] - block[i] : beta * block[i];
-    add_product(freedoms, block, products);
+    add_products(freedoms, block, products);
   }
 }
 
 ModalForces::PerMode ModalForces::damping_products() {
   auto products = empty();
-  for_each_inertia(analysis_, InertiaKind::damping, [&](auto freedoms, auto block) { add_product(freedoms, block, products); });
+  for_each_inertia(analysis_, InertiaKind::damping, [&](auto freedoms, auto block) { add_products(freedoms, block, products); });
   for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index)
     add_element_damping(*analysis_.element_groups[index], index, products);
   for (auto& product : products) system_.exchange().sum(product);
@@ -136,7 +139,7 @@ ModalForces::PerMode ModalForces::damping_products() {
 
 ModalForces::PerMode ModalForces::mass_products() {
   auto products = empty();
-  for_each_inertia(analysis_, InertiaKind::mass, [&](auto freedoms, auto block) { add_product(freedoms, block, products); });
+  for_each_inertia(analysis_, InertiaKind::mass, [&](auto freedoms, auto block) { add_products(freedoms, block, products); });
   for (auto& product : products) system_.exchange().sum(product);
   return products;
 }
@@ -158,7 +161,7 @@ void ModalForces::project_damping(const PerMode& products) {
   analysis_.communicator.sum(std::span<double>(damping_.data(), static_cast<std::size_t>(damping_.size())));
 }
 
-Eigen::VectorXd ModalForces::loads(const Step& step, double step_time, double total_time) {
+ModalLoads ModalForces::loads(const Step& step, double step_time, double total_time) {
   const auto& domain = analysis_.domain;
   std::vector<double> force(4 * (static_cast<std::size_t>(domain.size()) + 1), 0.0), moment(4 * static_cast<std::size_t>(domain.turning), 0.0);
   std::vector<Point> of_bodies(analysis_.model.rigid_bodies.size());
@@ -171,17 +174,35 @@ Eigen::VectorXd ModalForces::loads(const Step& step, double step_time, double to
     if (body >= 0 && domain.owned[node]) scatter(spin_[node], of_bodies[body].data(), slots);
   }
   system_.exchange().sum(slots);
-  for (std::size_t i = 0; i < held_slots_.size(); ++i) held_loads_[static_cast<Eigen::Index>(i)] = slots[held_slots_[i]];
-  Eigen::VectorXd sums = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes_.size()));
+  return project(slots);
+}
+
+ModalLoads ModalForces::inertia(const std::vector<double>& displacement, const std::vector<double>& rotation) {
+  const auto here = system_.configuration();
+  if (analysis_.current.linear) system_.restore(system_.reference());
+  std::vector<double> slots(static_cast<std::size_t>(system_.map().slots()), 0.0);
+  for_each_inertia(analysis_, InertiaKind::mass,
+                   [&](auto freedoms, auto block) { add_product(freedoms, block, displacement, rotation, slots); });
+  system_.restore(here);
+  system_.exchange().sum(slots);
+  return project(slots);
+}
+
+/// Forces on slots, summed over ranks.
+ModalLoads ModalForces::project(const std::vector<double>& slots) const {
+  ModalLoads loads{Eigen::VectorXd::Zero(static_cast<Eigen::Index>(modes_.size())), Eigen::VectorXd(held_slots_.size())};
+  for (std::size_t i = 0; i < held_slots_.size(); ++i) loads.on_held[static_cast<Eigen::Index>(i)] = slots[held_slots_[i]];
+  auto& sums = loads.on_modes;
   for (Eigen::Index mode = 0; mode < sums.size(); ++mode)
     for (const auto slot : system_.map().owned_free_slots())
       if (!system_.map().is_multiplier(slot)) sums[mode] += modes_[mode].slots[slot] * slots[slot];
   analysis_.communicator.sum(std::span<double>(sums.data(), static_cast<std::size_t>(sums.size())));
-  return sums;
+  return loads;
 }
 
-void ModalForces::show(const Eigen::VectorXd& amplitude, const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration) {
-  const Eigen::VectorXd held = by_motion_ * amplitude + by_velocity_ * velocity + by_acceleration_ * acceleration - held_loads_;
+void ModalForces::show(const Eigen::VectorXd& amplitude, const Eigen::VectorXd& velocity, const Eigen::VectorXd& acceleration,
+                       const Eigen::VectorXd& held_loads) {
+  const Eigen::VectorXd held = by_motion_ * amplitude + by_velocity_ * velocity + by_acceleration_ * acceleration - held_loads;
   std::vector<double> residual(static_cast<std::size_t>(system_.map().slots()), 0.0);
   for (std::size_t i = 0; i < held_slots_.size(); ++i) residual[held_slots_[i]] = held[static_cast<Eigen::Index>(i)];
   show_reactions(analysis_, system_.map(), residual);

@@ -24,6 +24,10 @@ Outcome run_dynamic_step(Analysis& analysis, const Step& step, Observer& observe
 /// The sum of the modes that a frequency step found. @throws AnalysisError where there are none.
 Outcome run_modal_dynamic_step(Analysis& analysis, const Step& step, Observer& observer);
 
+/// Responses to harmonic loads as sums of the modes that a frequency step found. @throws AnalysisError where there are none, or where a mode
+/// without damping is excited at its own frequency.
+Outcome run_steady_state_step(Analysis& analysis, const Step& step, Observer& observer);
+
 /// The response of first order about the state. @throws AnalysisError if nothing resists a motion.
 Outcome run_static_perturbation_step(Analysis& analysis, const Step& step, Observer& observer);
 

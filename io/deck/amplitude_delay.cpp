@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "deck/load_magnitude.hpp"
+#include "deck/steady_state.hpp"
 
 namespace balocco::deck {
 
@@ -36,6 +37,7 @@ std::optional<std::int32_t> amplitude_of(Builder& builder, const Block& block) {
     builder.error(block, block.location, "TIME DELAY must not be negative; correct it");
     return std::nullopt;
   }
+  if (delay > 0.0) note_timed(builder, block, "TIME DELAY");
   return row && delay > 0.0 ? std::optional(delayed(builder, *row, delay)) : row;
 }
 

@@ -8,6 +8,7 @@
 
 #include "deck/geometry.hpp"
 #include "deck/load_magnitude.hpp"
+#include "deck/steady_state.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
 #include "sections/beam_section.hpp"
@@ -135,7 +136,7 @@ std::map<double, std::int32_t> sets_by_divisor(Builder& builder, const Block& bl
 
 bool replaces(const BodyLoad& load, const BodyLoad& other) {
   return load.kind == other.kind && load.element_set == other.element_set && load.direction == other.direction &&
-         load.point == other.point;
+         load.point == other.point && load.imaginary == other.imaginary;
 }
 
 void set_body_load(Builder& builder, const BodyLoad& load) {
@@ -166,6 +167,7 @@ void read_body_load(Builder& builder, const Block& block, Row& row, std::int32_t
   load.kind = label.kind;
   read_numbers(row, label, load);
   if (!row.ok()) return;
+  load.imaginary = is_imaginary(builder, block);
   load.amplitude = amplitude;
   load.file = row.location().file;
   load.line = row.location().line;

@@ -126,7 +126,8 @@ void read_distributed(Builder& builder, const Block& block) {
 }
 
 const std::vector<ParameterRule> distributed_parameters{choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY"),
-                                                        choice("FOLLOWER", {"YES", "NO"}), choice("CONSTANT RESULTANT", {"YES", "NO"})};
+                                                        choice("FOLLOWER", {"YES", "NO"}), choice("CONSTANT RESULTANT", {"YES", "NO"}),
+                                                        integer("LOAD CASE"), flag("REAL"), flag("IMAGINARY")};
 
 const RegisterKeyword dload{{"DLOAD", Phase::history, Place::step, distributed_parameters, read_distributed}};
 const RegisterKeyword dsload{{"DSLOAD", Phase::history, Place::step, distributed_parameters, read_surface_loads}};

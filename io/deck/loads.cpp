@@ -8,6 +8,7 @@
 #include "deck/joint_angles.hpp"
 #include "deck/load_magnitude.hpp"
 #include "deck/register.hpp"
+#include "deck/steady_state.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
 #include "elements/turning_nodes.hpp"
@@ -177,7 +178,7 @@ void read_concentrated(Builder& builder, const Block& block) {
   }
   const auto amplitude = amplitude_of(builder, block);
   if (!amplitude) return;
-  const bool follower = block.has("FOLLOWER");
+  const bool follower = block.has("FOLLOWER"), imaginary = is_imaginary(builder, block);
   Rotations rotations(builder);
   for (const auto& line : block.lines) {
     Row row(builder, block, line);
@@ -204,8 +205,8 @@ void read_concentrated(Builder& builder, const Block& block) {
                               builder.model.node_name(node)));
         break;
       }
-      const auto [place, added] = index.emplace(StepDraft::key_of(node, static_cast<std::int32_t>(dof) - 1, follower), loads.size());
-      if (added) loads.push_back({.node = node, .dof = static_cast<std::int32_t>(dof) - 1, .follower = follower});
+      const auto [place, added] = index.emplace(StepDraft::key_of(node, static_cast<std::int32_t>(dof) - 1, follower, imaginary), loads.size());
+      if (added) loads.push_back({.node = node, .dof = static_cast<std::int32_t>(dof) - 1, .follower = follower, .imaginary = imaginary});
       auto& load = loads[place->second];
       // Repeated in one step: forces add up. From an earlier step: the new magnitude takes the old one's place.
       const double sum = builder.draft.said_here(load) && load.amplitude == *amplitude ? load.magnitude : 0.0;
@@ -229,7 +230,8 @@ const RegisterKeyword cload{
     {"CLOAD",
      Phase::history,
      Place::step,
-     {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY"), flag("FOLLOWER")},
+     {choice("OP", {"MOD", "NEW"}), name("AMPLITUDE"), real("TIME DELAY"), flag("FOLLOWER"), integer("LOAD CASE"), flag("REAL"),
+      flag("IMAGINARY")},
      read_concentrated}};
 
 }  // namespace

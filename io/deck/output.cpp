@@ -6,6 +6,7 @@
 #include "deck/groups.hpp"
 #include "deck/output_words.hpp"
 #include "deck/register.hpp"
+#include "deck/steady_state.hpp"
 #include "elements/element_type.hpp"
 
 namespace balocco::deck {
@@ -32,6 +33,8 @@ bool set_times(Builder& builder, const Block& block, FieldOutput& output) {
     if (points == nullptr) return false;
     output.time_points = *points;
   }
+  for (const char* mark : {"NUMBER INTERVAL", "TIME INTERVAL", "TIME POINTS"})
+    if (block.has(mark)) note_timed(builder, block, mark);
   if (marks > 1) {
     builder.error(block, block.location, "give one of FREQUENCY, NUMBER INTERVAL, TIME INTERVAL and TIME POINTS");
     return false;
@@ -185,9 +188,9 @@ void finish_output(Builder& builder) {
     }
     for (auto& output : step.field_outputs) {
       for (auto* variables : {&output.element_variables, &output.integration_point_variables}) {
-        std::erase_if(*variables, [&](const std::string& name) { return !exists(name); });
+        std::erase_if(*variables, [&](const std::string& name) { return !exists(name) || (step.is_harmonic() && has_no_parts(name)); });
       }
-      if (model.contact_pairs.empty()) output.contact_variables.clear();
+      if (model.contact_pairs.empty() || step.is_harmonic()) output.contact_variables.clear();
     }
     for (auto& output : step.history_outputs) {
       for (auto& elements : output.elements)

@@ -12,11 +12,17 @@ namespace {
 /// NT11, the temperature of a node, is NT; everything else is what it says.
 std::string temperature_or(const std::string& variable) { return variable == "NT11" ? "NT" : variable; }
 
+/// A vector of nodes; in harmonic steps also one that counts the base's motion.
+bool is_vector(const Step& step, const std::string& variable) {
+  static const Words total_vectors{"TU", "TV", "TA"};
+  return contains(node_vectors, variable) || (step.is_harmonic() && contains(total_vectors, variable));
+}
+
 /// U or U1..U3 of a vector variable, or NT.
-bool is_node_history(const std::string& variable) {
-  if (contains(node_vectors, variable) || variable == "NT") return true;
+bool is_node_history(const Step& step, const std::string& variable) {
+  if (is_vector(step, variable) || variable == "NT") return true;
   return variable.size() > 1 && variable.back() >= '1' && variable.back() <= '3' &&
-         contains(node_vectors, variable.substr(0, variable.size() - 1));
+         is_vector(step, variable.substr(0, variable.size() - 1));
 }
 
 /// Row of the node set that NSET names, a node id made one; nothing if it is undefined (told).
@@ -71,7 +77,7 @@ void read_node_field(Builder& builder, const Block& block) {
     add(output.node_variables, variable);
   each_variable(builder, block, [&](const std::string& said, Row& row) {
     const std::string variable = temperature_or(said);
-    if (variable != "NT" && !contains(node_vectors, variable)) return unknown_variable(builder, block, row, variable, node_vectors);
+    if (variable != "NT" && !is_vector(current_step(builder), variable)) return unknown_variable(builder, block, row, variable, node_vectors);
     add(output.node_variables, variable);
   });
 }
@@ -85,7 +91,7 @@ void read_node_history(Builder& builder, const Block& block) {
   request.variables = asked_by_variable(block, preselected_node, node_vectors);
   each_variable(builder, block, [&](const std::string& said, Row& row) {
     const std::string variable = temperature_or(said);
-    if (!is_node_history(variable)) return unknown_variable(builder, block, row, variable, node_vectors);
+    if (!is_node_history(current_step(builder), variable)) return unknown_variable(builder, block, row, variable, node_vectors);
     add(request.variables, variable);
   });
   if (!request.variables.empty()) builder.model.steps.back().history_outputs.back().nodes.push_back(std::move(request));

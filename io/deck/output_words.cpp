@@ -50,6 +50,11 @@ bool is_abaqus_only(const std::string& variable) {
   return contains(abaqus_only, variable) || contains(components_only, variable);
 }
 
+bool has_no_parts(const std::string& variable) {
+  static const Words quadratic{"MISES", "PEEQ", "SENER", "ENER", "ELSE", "ELASE", "ELKE", "STATUS"};
+  return contains(quadratic, variable);
+}
+
 std::string whole_variable(const std::string& component) {
   static const Words tensors{"S", "E", "LE", "EE", "NE", "PE", "ER", "SE", "SS"}, pairs{"11", "22", "33", "12", "13", "23"};
   for (const auto& tensor : tensors)

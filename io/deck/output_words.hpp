@@ -24,6 +24,8 @@ void add(Words& words, const std::string& word);
 
 /// A variable of Abaqus that is not written here: told, but no reason to refuse.
 bool is_abaqus_only(const std::string& variable);
+/// An element variable that is no linear function of the motion, so that a complex response has none.
+bool has_no_parts(const std::string& variable);
 /// The element variable that a component names: S of S11, SF of SF1, CTF of CTM2 (Abaqus counts its moments from 1 again); else the word
 /// itself.
 std::string whole_variable(const std::string& component);

@@ -5,6 +5,7 @@
 
 #include "deck/output_words.hpp"
 #include "deck/register.hpp"
+#include "deck/steady_state.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
 
@@ -28,6 +29,8 @@ std::optional<PrintOutput> begin_print(Builder& builder, const Block& block, Pri
   replace_earlier(builder, kind);
   PrintOutput output;
   output.kind = kind;
+  if (block.has("TIME POINTS")) note_timed(builder, block, "TIME POINTS");
+  if (kind == PrintOutput::Kind::section || kind == PrintOutput::Kind::contact) note_timed(builder, block, "this table");
   output.frequency = block.integer("FREQUENCY", 1);
   if (output.frequency < 0) builder.error(block, block.location, "FREQUENCY must not be negative; correct it");
   if (output.frequency <= 0) return std::nullopt;

@@ -34,13 +34,20 @@ struct StepDraft {
   std::unordered_map<std::int64_t, std::size_t> boundary_of;      // node * 6 + dof -> row of Step::boundary
   std::unordered_map<std::int64_t, std::size_t> concentrated_of;  // key_of() -> row of Step::concentrated_loads
   std::unordered_map<std::int32_t, std::size_t> temperature_of;   // node -> row of Step::temperatures
-  static std::int64_t key_of(std::int32_t node, std::int32_t dof, bool follower) {
-    return std::int64_t{node} * 12 + dof + (follower ? 6 : 0);
+  static std::int64_t key_of(std::int32_t node, std::int32_t dof, bool follower, bool imaginary) {
+    return std::int64_t{node} * 24 + dof + (follower ? 6 : 0) + (imaginary ? 12 : 0);
   }
   bool field_replaced = false, history_replaced = false;  // an *OUTPUT of this step took the place of earlier ones
   std::set<PrintOutput::Kind> prints_replaced;  // kinds of *... PRINT that took the place of those of earlier steps
   enum class Output { none, field, history } output = Output::none;  // what the latest *OUTPUT asked for
   std::size_t first_field = 0;  // row of Step::field_outputs that the latest *OUTPUT, FIELD began
+
+  /// Something that steps of other procedures do not take: where, of which keyword, and what it is.
+  struct Note {
+    Location location;
+    std::string keyword, what;
+  };
+  std::vector<Note> harmonic, timed;  // of harmonic steps alone; of steps over time alone
 
   /// True if a load was said (again) in this step.
   template <class Load>

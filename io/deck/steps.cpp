@@ -7,6 +7,7 @@
 #include "deck/builder.hpp"
 #include "deck/mass_scaling.hpp"
 #include "deck/register.hpp"
+#include "deck/steady_state.hpp"
 #include "deck/step_draft.hpp"
 #include "deck/sudden_loads.hpp"
 #include "deck/text.hpp"
@@ -111,7 +112,7 @@ void index_nodes(Builder& builder) {
   }
   for (std::size_t row = 0; row < step.concentrated_loads.size(); ++row) {
     const auto& load = step.concentrated_loads[row];
-    builder.draft.concentrated_of[StepDraft::key_of(load.node, load.dof, load.follower)] = row;
+    builder.draft.concentrated_of[StepDraft::key_of(load.node, load.dof, load.follower, load.imaginary)] = row;
   }
   for (std::size_t row = 0; row < step.temperatures.size(); ++row) builder.draft.temperature_of[step.temperatures[row].node] = row;
 }
@@ -238,6 +239,7 @@ void end_step(Builder& builder, const Block& block) {
   if (builder.draft.perturbation && !step.is_perturbation()) make_static_perturbation(builder, block);
   if (builder.draft.amplitude == "STEP" && std::holds_alternative<StaticProcedure>(step.procedure)) act_at_once(builder);
   if (step.is_perturbation()) drop_loads_of_the_state(builder, step);
+  settle_harmonics(builder);
   if (step.seeks_modes()) end_search_for_modes(builder, step);
   if (auto* statics = std::get_if<StaticProcedure>(&step.procedure)) statics->controls = builder.draft.controls;
   if (auto* dynamics = std::get_if<DynamicProcedure>(&step.procedure)) dynamics->controls = builder.draft.controls;

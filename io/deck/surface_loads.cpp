@@ -9,6 +9,7 @@
 
 #include "deck/geometry.hpp"
 #include "deck/load_magnitude.hpp"
+#include "deck/steady_state.hpp"
 #include "deck/text.hpp"
 
 namespace balocco::deck {
@@ -91,6 +92,7 @@ void read_surface_load_line(Builder& builder, const Block& block, Row& row, Kind
     if (!(size > 0.0)) return row.error(fmt::format("the direction of {} has no length; give its three components after the magnitude", label.name));
     for (double& component : load.direction) component /= size;
   }
+  load.imaginary = is_imaginary(builder, block);
   load.amplitude = amplitude;
   load.file = row.location().file;
   load.line = row.location().line;
@@ -98,7 +100,8 @@ void read_surface_load_line(Builder& builder, const Block& block, Row& row, Kind
 }
 
 std::string surface_load_parameters(const SurfaceLoad& load) {
-  return fmt::format("{}{}", load.follows ? "" : ", FOLLOWER=NO", load.of_reference ? ", CONSTANT RESULTANT=YES" : "");
+  return fmt::format("{}{}{}", load.follows ? "" : ", FOLLOWER=NO", load.of_reference ? ", CONSTANT RESULTANT=YES" : "",
+                     part_parameter(load.imaginary));
 }
 
 std::string surface_load_text(const SurfaceLoad& load) {

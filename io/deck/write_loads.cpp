@@ -1,5 +1,6 @@
 // The loads of a step being written.
 #include "deck/body_loads.hpp"
+#include "deck/steady_state.hpp"
 #include "deck/surface_loads.hpp"
 #include "deck/writer.hpp"
 
@@ -18,7 +19,7 @@ void Writer::loads(const Step& step) {
   };
   for (const auto& load : step.concentrated_loads) {
     if (!is_said(load)) continue;
-    head(load.follower ? "*CLOAD, FOLLOWER" : "*CLOAD", load.amplitude);
+    head(fmt::format("*CLOAD{}{}", load.follower ? ", FOLLOWER" : "", part_parameter(load.imaginary)), load.amplitude);
     line("{}, {}, {}", node_id(load.node), load.dof + 1, said(load));
   }
   for (const auto& temperature : step.temperatures) {
@@ -33,7 +34,7 @@ void Writer::loads(const Step& step) {
   }
   for (auto load : step.body_loads) {
     if (!is_said(load)) continue;
-    head("*DLOAD", load.amplitude);
+    head(fmt::format("*DLOAD{}", part_parameter(load.imaginary)), load.amplitude);
     load.magnitude = said(load);
     line("{}, {}", load.element_set < 0 ? "" : quoted(model_.element_sets[load.element_set].name), body_load_text(load));
   }

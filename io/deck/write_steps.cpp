@@ -3,6 +3,7 @@
 #include <iterator>
 #include <utility>
 
+#include "deck/steady_state.hpp"
 #include "deck/writer.hpp"
 
 namespace balocco::deck {
@@ -83,11 +84,31 @@ void Writer::procedure(const BuckleProcedure& p) {
 void Writer::procedure(const ModalDynamicProcedure& p) {
   line("*MODAL DYNAMIC{}\n{}, {}", p.largest_load_change ? fmt::format(", DIRECT=NO, DELTMX={}", *p.largest_load_change) : "",
        p.increment, p.duration);
-  for (const auto& damping : p.damping) {
+  modal_damping(p.damping);
+}
+
+void Writer::modal_damping(const std::vector<ModalDamping>& dampings) {
+  for (const auto& damping : dampings) {
     if (damping.fraction != 0.0)
       line("*MODAL DAMPING\n{}, {}, {}", damping.first, damping.last, damping.fraction);
+    else if (damping.structural != 0.0)
+      line("*MODAL DAMPING, STRUCTURAL\n{}, {}, {}", damping.first, damping.last, damping.structural);
     else
       line("*MODAL DAMPING, RAYLEIGH\n{}, {}, {}, {}", damping.first, damping.last, damping.alpha, damping.beta);
+  }
+}
+
+void Writer::procedure(const SteadyStateProcedure& p) {
+  line("*STEADY STATE DYNAMICS, INTERVAL={}, FREQUENCY SCALE={}",
+       p.interval == SteadyStateProcedure::Interval::range ? "RANGE" : "EIGENFREQUENCY", p.logarithmic ? "LOGARITHMIC" : "LINEAR");
+  for (const auto& range : p.ranges)
+    line("{}, {}, {}, {}, {}", range.lower, range.upper > range.lower ? range.upper : 0.0, range.points, range.bias, range.scale);
+  modal_damping(p.damping);
+  for (const auto& motion : p.base_motions) {
+    const std::string type = motion.kind == BoundaryCondition::Kind::displacement ? ", TYPE=DISPLACEMENT" : type_of_motion(motion.kind);
+    line("*BASE MOTION, DOF={}, SCALE={}{}{}{}", motion.dof + 1, motion.scale, type, part_parameter(motion.imaginary),
+         amplitude_parameter(motion.amplitude));
+    if (motion.dof >= 3) line("{}, {}, {}", motion.centre[0], motion.centre[1], motion.centre[2]);
   }
 }
 

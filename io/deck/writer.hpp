@@ -69,6 +69,8 @@ class Writer {
   void procedure(const BuckleProcedure& p);
   void procedure(const ModalDynamicProcedure& p);
   void procedure(const StaticPerturbationProcedure& p);
+  void procedure(const SteadyStateProcedure& p);
+  void modal_damping(const std::vector<ModalDamping>& dampings);
   void controls(const ImplicitControls& now);
   void contact_changes(std::size_t row);
   void interaction_change(const Interaction& now, const Interaction& before);

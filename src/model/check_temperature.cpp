@@ -44,7 +44,8 @@ void check_elastic_table(const Model& model, const Section& section, const Mater
 void check_step(const Model& model, const Step& step, Errors& errors) {
   if (step.temperatures.empty() || std::ranges::none_of(model.materials, follows_temperature)) return;
   const auto moves = [](const NodalTemperature& said) { return said.magnitude != said.previous; };
-  const bool superposes = std::holds_alternative<BuckleProcedure>(step.procedure) || std::holds_alternative<ModalDynamicProcedure>(step.procedure);
+  const bool superposes = std::holds_alternative<BuckleProcedure>(step.procedure) || std::holds_alternative<ModalDynamicProcedure>(step.procedure) ||
+                          step.is_harmonic();
   if (superposes || (step.is_perturbation() && std::ranges::any_of(step.temperatures, moves)))
     errors.emplace_back(Location{step.temperatures.front().file, step.temperatures.front().line},
                         fmt::format("*TEMPERATURE: step {} of {} does not follow temperatures; use *STATIC or *DYNAMIC, or give the job no temperatures",

@@ -55,10 +55,20 @@ struct ContactPlace {
   std::array<double, 2> displacement{}, shear{};  // of the slave relative to the master since it closed, and the stress that holds it
 };
 
+class ResultSource;
+
+/// A part of what is told: all of it, without a suffix, or the real or the imaginary part of a complex response.
+struct ResultPart {
+  std::string_view suffix;  // "", "_REAL", "_IMAG": behind the names of variables in results files
+  const ResultSource* source = nullptr;
+};
+
 /// What a running analysis can be asked for. Functions marked collective must be called by every rank.
 class ResultSource {
  public:
   virtual ~ResultSource() = default;
+  /// What is written is that of the parts, one after the other; which variables there are is the same for all.
+  virtual std::vector<ResultPart> parts() const { return {{"", this}}; }
   virtual const State& state() const = 0;
   virtual std::span<const std::unique_ptr<ElementGroup>> groups() const = 0;
   /// Components of a nodal variable: U V A RF (3), UR VR AR RM (3, only reference nodes of rigid bodies are not zero),
@@ -92,6 +102,8 @@ struct Progress {
   std::int64_t deleted_elements = 0;   // by *SHEAR FAILURE, since the analysis began (explicit)
   double added_mass = 0.0;             // by mass scaling, as a part of the mass of the model (explicit)
   double negligible_energy = 0.0;      // what rounding makes (explicit)
+  double frequency = 0.0;              // cycles per time (harmonic)
+  double largest_displacement = 0.0;   // greatest over a cycle of a component of U, of any node (harmonic)
   bool step_finished = false;
 };
 

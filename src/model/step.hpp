@@ -34,6 +34,7 @@ struct ConcentratedLoad {
   double magnitude = 0.0;
   double previous = 0.0;        // magnitude reached at the end of the previous step: where a static ramp starts
   bool follower = false;        // *CLOAD, FOLLOWER: it turns with the node
+  bool imaginary = false;       // of harmonic loads the imaginary part: a quarter of a cycle ahead of the real one
   std::int32_t amplitude = -1;
   std::int32_t file = -1, line = 0;
 };
@@ -70,6 +71,7 @@ struct SurfaceLoad {
   std::array<double, 3> direction{};  // unit
   bool follows = true;         // `direction` turns with the surface
   bool of_reference = false;   // by the area or length of the reference, not by those of now
+  bool imaginary = false;      // as of ConcentratedLoad
   double magnitude = 0.0;
   double previous = 0.0;
   std::int32_t amplitude = -1;
@@ -80,7 +82,8 @@ constexpr bool acts_on_edges(SurfaceLoad::Kind kind) { return kind >= SurfaceLoa
 
 /// Whether two loads differ in magnitude alone.
 inline bool acts_alike(const SurfaceLoad& a, const SurfaceLoad& b) {
-  return a.kind == b.kind && a.surface == b.surface && a.direction == b.direction && a.follows == b.follows && a.of_reference == b.of_reference;
+  return a.kind == b.kind && a.surface == b.surface && a.direction == b.direction && a.follows == b.follows && a.of_reference == b.of_reference &&
+         a.imaginary == b.imaginary;
 }
 
 /// A force on all matter of an element set (-1: the whole model).
@@ -95,6 +98,7 @@ struct BodyLoad {
   double previous = 0.0;
   std::array<double, 3> direction{};  // unit; centrifugal: of the axis
   std::array<double, 3> point{};      // centrifugal: on the axis
+  bool imaginary = false;             // as of ConcentratedLoad
   std::int32_t amplitude = -1;
   std::int32_t file = -1, line = 0;
 };
@@ -192,6 +196,7 @@ struct StaticProcedure : ImplicitIncrements {
   static constexpr bool is_perturbation = false;    // about the state, which it leaves as it is
   static constexpr bool is_dynamic = false;         // velocities go on from step to step
   static constexpr bool seeks_modes = false;        // and tells nothing else
+  static constexpr bool is_harmonic = false;        // tells complex responses at frequencies, not states at times
 
   bool stabilize = false;
   double dissipated_energy_fraction = 2e-4;
@@ -206,6 +211,7 @@ struct DynamicProcedure : ImplicitIncrements {
   static constexpr bool is_perturbation = false;
   static constexpr bool is_dynamic = true;
   static constexpr bool seeks_modes = false;
+  static constexpr bool is_harmonic = false;
 
   double alpha = -0.05;  // -1/3 (most damping of the highest frequencies) to 0 (none)
   /// False (INITIAL=NO): the step starts with the accelerations of a dynamic step just before it, or none, whatever its loads are.
@@ -233,6 +239,7 @@ struct ExplicitProcedure {
   static constexpr bool is_perturbation = false;
   static constexpr bool is_dynamic = true;
   static constexpr bool seeks_modes = false;
+  static constexpr bool is_harmonic = false;
 
   double duration = 0.0;
   std::optional<double> fixed_increment;  // *DYNAMIC, EXPLICIT, DIRECT USER CONTROL
@@ -253,6 +260,7 @@ struct StaticPerturbationProcedure {
   static constexpr bool is_perturbation = true;
   static constexpr bool is_dynamic = false;
   static constexpr bool seeks_modes = false;
+  static constexpr bool is_harmonic = false;
 
   double duration = 1.0;
 };
@@ -266,6 +274,7 @@ struct FrequencyProcedure {
   static constexpr bool is_perturbation = true;
   static constexpr bool is_dynamic = false;
   static constexpr bool seeks_modes = true;
+  static constexpr bool is_harmonic = false;
   static constexpr double duration = 0.0;
 
   enum class Normalization { displacement, mass };  // of modes: largest displacement 1, or generalised mass 1
@@ -284,9 +293,17 @@ struct BuckleProcedure {
   static constexpr bool is_perturbation = true;
   static constexpr bool is_dynamic = false;
   static constexpr bool seeks_modes = true;
+  static constexpr bool is_harmonic = false;
   static constexpr double duration = 0.0;
 
   std::int32_t number = 1;
+};
+
+/// *MODAL DAMPING of modes first <= number <= last: a fraction of critical damping, Rayleigh's alpha and beta, and the structural damping
+/// factor, by which the modal stiffness has an imaginary part (harmonic responses alone).
+struct ModalDamping {
+  std::int32_t first = 1, last = 1;
+  double fraction = 0.0, alpha = 0.0, beta = 0.0, structural = 0.0;
 };
 
 /// Response to the step's loads as a sum of the modes that the last frequency step found, from rest.
@@ -298,21 +315,56 @@ struct ModalDynamicProcedure {
   static constexpr bool is_perturbation = true;
   static constexpr bool is_dynamic = false;
   static constexpr bool seeks_modes = false;
+  static constexpr bool is_harmonic = false;
 
-  /// Of modes first <= number <= last: a fraction of critical damping, and of Rayleigh's alpha and beta.
-  struct Damping {
-    std::int32_t first = 1, last = 1;
-    double fraction = 0.0, alpha = 0.0, beta = 0.0;
-  };
   double increment = 1.0, duration = 1.0;
   /// DIRECT=NO: increments grow from the first one as long as no load changes by more than this in one; none: all are alike.
   std::optional<double> largest_load_change;
   std::int32_t maximum_increments = 100;
-  std::vector<Damping> damping;
+  std::vector<ModalDamping> damping;
+};
+
+/// *BASE MOTION: all held freedoms move as one rigid body, along a global axis (dof 0-2) or about one through `centre` (3-5, radians), by
+/// `scale` times the amplitude at the frequency (none: 1).
+struct BaseMotion {
+  int dof = 0;
+  BoundaryCondition::Kind kind = BoundaryCondition::Kind::acceleration;  // of which quantity `scale` and the amplitude tell
+  double scale = 1.0;
+  std::array<double, 3> centre{};
+  bool imaginary = false;
+  std::int32_t amplitude = -1;
+  std::int32_t file = -1, line = 0;
+};
+
+/// Complex response to harmonic loads, frequency by frequency, as a sum of the modes that the last frequency step found. Amplitudes of its
+/// loads are functions of the frequency.
+struct SteadyStateProcedure {
+  static constexpr std::string_view name = "steady-state dynamics";
+  static constexpr bool ramps_loads = false;
+  static constexpr bool needs_mass = true;
+  static constexpr bool has_few_increments = true;
+  static constexpr bool is_perturbation = true;
+  static constexpr bool is_dynamic = false;
+  static constexpr bool seeks_modes = false;
+  static constexpr bool is_harmonic = true;
+  static constexpr double duration = 0.0;
+
+  /// Where the frequencies of the ranges lie: between the ends of a range, or also between eigenfrequencies within it.
+  enum class Interval { eigenfrequency, range } interval = Interval::eigenfrequency;
+  bool logarithmic = true;
+  struct Range {
+    double lower = 0.0, upper = 0.0;  // cycles per time; equal: one frequency
+    std::int32_t points = 20;         // of each interval, with its ends
+    double bias = 3.0;                // 1: evenly spaced; more: towards the ends of the interval
+    double scale = 1.0;               // of all frequencies but the ends of the range
+  };
+  std::vector<Range> ranges;  // rising
+  std::vector<ModalDamping> damping;
+  std::vector<BaseMotion> base_motions;
 };
 
 using Procedure = std::variant<StaticProcedure, ExplicitProcedure, FrequencyProcedure, DynamicProcedure, BuckleProcedure, ModalDynamicProcedure,
-                               StaticPerturbationProcedure>;
+                               StaticPerturbationProcedure, SteadyStateProcedure>;
 
 struct Step {
   std::string name;
@@ -345,6 +397,7 @@ struct Step {
   bool is_perturbation() const { return std::visit([](const auto& kind) { return kind.is_perturbation; }, procedure); }
   bool is_dynamic() const { return std::visit([](const auto& kind) { return kind.is_dynamic; }, procedure); }
   bool seeks_modes() const { return std::visit([](const auto& kind) { return kind.seeks_modes; }, procedure); }
+  bool is_harmonic() const { return std::visit([](const auto& kind) { return kind.is_harmonic; }, procedure); }
   /// Null where the procedure solves no equations of motion or rest.
   const ImplicitIncrements* implicit_increments() const;
 };

@@ -114,5 +114,35 @@ TEST(DeckForms, DampingOfAllModesAndIncrementsThatGrow) {
   EXPECT_NE(errors_of(deck("*MODAL DYNAMIC, DIRECT=NO, DELTMX=0.\n1e-3, 1.\n")).find("DELTMX must be positive"), std::string::npos);
 }
 
+TEST(DeckForms, HarmonicLoadsHaveTwoPartsAndAnAmplitudeOverTheFrequency) {
+  const std::string before = brick + "*AMPLITUDE, NAME=A\n0., 1., 10., 3.\n*STEP\n*FREQUENCY\n3\n*END STEP\n*STEP\n";
+  const auto model = read(before + "*STEADY STATE DYNAMICS\n1., 20.\n30.\n*MODAL DAMPING, STRUCTURAL\n1, 3, 0.04\n*CLOAD\n7, 1, 2.\n"
+                          "*CLOAD, LOAD CASE=2, AMPLITUDE=A\n7, 1, 5.\n*DLOAD, REAL\nALL, P1, 3.\n*DLOAD, IMAGINARY\nALL, P1, 4.\nALL, GRAV, 9., 0., 0., 1.\n"
+                          "*BASE MOTION, DOF=4, TYPE=VELOCITY, SCALE=0.5, AMPLITUDE=A, IMAGINARY\n1., 2., 3.\n*END STEP\n").model;
+  const auto& step = model.steps[1];
+  const auto& procedure = std::get<SteadyStateProcedure>(step.procedure);
+  EXPECT_TRUE(procedure.logarithmic);
+  ASSERT_EQ(procedure.ranges.size(), 2u);
+  EXPECT_EQ(procedure.ranges[0].points, 20);
+  EXPECT_EQ(procedure.ranges[0].bias, 3.0);
+  EXPECT_EQ(procedure.ranges[1].upper, 30.0) << "one frequency alone";
+  EXPECT_EQ(procedure.damping[0].structural, 0.04);
+  ASSERT_EQ(step.concentrated_loads.size(), 2u);
+  EXPECT_FALSE(step.concentrated_loads[0].imaginary);
+  EXPECT_TRUE(step.concentrated_loads[1].imaginary);
+  EXPECT_EQ(step.concentrated_loads[1].amplitude, 0);
+  ASSERT_EQ(step.surface_loads.size(), 2u);
+  EXPECT_NE(step.surface_loads[0].imaginary, step.surface_loads[1].imaginary);
+  EXPECT_TRUE(step.body_loads[0].imaginary);
+  const auto& motion = procedure.base_motions.at(0);
+  EXPECT_EQ(motion.dof, 3);
+  EXPECT_EQ(motion.centre, (std::array<double, 3>{1.0, 2.0, 3.0}));
+  EXPECT_TRUE(motion.imaginary);
+  EXPECT_TRUE(step.history_outputs.empty());
+  const auto& shown = step.field_outputs.at(0).element_variables;
+  EXPECT_EQ(std::ranges::count(shown, "S"), 1);
+  EXPECT_EQ(std::ranges::count(shown, "MISES"), 0) << "it has no real and imaginary part";
+}
+
 }  // namespace
 }  // namespace balocco
