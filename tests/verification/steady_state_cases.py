@@ -1,0 +1,258 @@
+#!/usr/bin/env python3
+"""Harmonic responses against closed forms, sums of modes and statics: steady_state_cases.py CASE BALOCCO FOLDER."""
+import math
+import pathlib
+import re
+import sys
+
+import h5py
+import numpy as np
+
+from job import Job, check, failures
+from modal_cases import cantilever
+
+STIFFNESS, MASS = 1000.0, 2.0
+NATURAL = math.sqrt(STIFFNESS / MASS) / (2.0 * math.pi)
+LINEAR = "*STEADY STATE DYNAMICS, INTERVAL=RANGE, FREQUENCY SCALE=LINEAR\n"
+NO_FRAMES = "*OUTPUT, FIELD, FREQUENCY=0\n"
+TOLD = "*OUTPUT, HISTORY\n*NODE OUTPUT, NSET=%s\n%s\n"
+
+
+def oscillator(step, dashpot=0.0, elements=""):
+    """A mass on a spring along x, whose one end is held; `step` is that behind *FREQUENCY."""
+    damper = "*ELEMENT, TYPE=DASHPOTA, ELSET=DAMPER\n3, 1, 2\n*DASHPOT, ELSET=DAMPER\n\n%.15g\n" % dashpot if dashpot else ""
+    return """*NODE, NSET=ALL
+1, 0., 0., 0.
+2, 1., 0., 0.
+*ELEMENT, TYPE=MASS, ELSET=MASS
+1, 2
+*MASS, ELSET=MASS
+%.15g
+*ELEMENT, TYPE=SPRINGA, ELSET=SPRING
+2, 1, 2
+*SPRING, ELSET=SPRING
+
+%.15g
+%s%s*AMPLITUDE, NAME=GROWING
+0., 1., 100., 2.
+*BOUNDARY
+1, 1, 3
+2, 2, 3
+*STEP
+*FREQUENCY
+1
+*END STEP
+*STEP
+%s*END STEP
+""" % (MASS, STIFFNESS, damper, elements, step)
+
+
+def told(job, node, variable, step=2):
+    """Frequencies and the complex history of a node."""
+    with h5py.File(job.folder / (job.name + ".h5")) as file:
+        rows = file["step_%d/history/node_%d" % (step, node)]
+        return rows["frequency"][:], rows[variable + "_REAL"][:] + 1j * rows[variable + "_IMAG"][:]
+
+
+def worst(found, wanted):
+    return np.abs(found - wanted).max() / np.abs(wanted).max()
+
+
+def forced(balocco, folder):
+    """A complex force on a mass, spring and damper: F / (k (1 + i s) - w^2 m + i w c), the damper being a dashpot, a fraction of critical
+    damping, Rayleigh's, or structural; its velocity, acceleration and reaction, and an amplitude over the frequency."""
+    critical, force, counter = 2.0 * math.sqrt(STIFFNESS * MASS), 3.0 - 2.0j, 0
+    loads = "*CLOAD, AMPLITUDE=GROWING\n2, 1, 3.\n*CLOAD, LOAD CASE=2, AMPLITUDE=GROWING\n2, 1, -2.\n"
+    for what, dashpot, modal, c, s in (("dashpot", 0.1 * critical, "", 0.1 * critical, 0.0),
+                                       ("fraction", 0.0, "*MODAL DAMPING\n1, 1, 0.02\n", 0.02 * critical, 0.0),
+                                       ("Rayleigh", 0.0, "*MODAL DAMPING, RAYLEIGH\n1, 1, 0.5, 1e-3\n", 0.5 * MASS + 1e-3 * STIFFNESS, 0.0),
+                                       ("structural", 0.0, "*MODAL DAMPING, STRUCTURAL\n1, 1, 0.05\n", 0.0, 0.05)):
+        for ranks in "12" if dashpot else "1":
+            counter += 1
+            job = Job("forced_%d" % counter, balocco, ranks, folder)
+            job.run(oscillator(LINEAR + "0.5, 10., 40\n" + modal + loads + NO_FRAMES + TOLD % ("ALL", "U, V, A, RF"), dashpot))
+            f, u = told(job, 2, "U")
+            w = 2.0 * math.pi * f
+            check("frequencies", np.abs(f - np.linspace(0.5, 10.0, 40)).max(), 0.0, 1e-12)
+            response = force * (1.0 + f / 100.0) / (STIFFNESS * (1.0 + 1j * s) - w**2 * MASS + 1j * w * c)
+            check("displacement, %s, %s ranks" % (what, ranks), worst(u[:, 0], response), 0.0, 1e-10)
+            check("velocity", worst(told(job, 2, "V")[1][:, 0], 1j * w * response), 0.0, 1e-10)
+            check("acceleration", worst(told(job, 2, "A")[1][:, 0], -w**2 * response), 0.0, 1e-10)
+            check("reaction", worst(told(job, 1, "RF")[1][:, 0], -(STIFFNESS + 1j * w * dashpot) * response), 0.0, 1e-10)
+
+
+def shaken(balocco, folder):
+    """The base of the oscillator moves by a given displacement, velocity or acceleration: relative response m w^2 ub / (k - w^2 m + i w c)."""
+    c = 5.0
+    for kind, power in (("DISPLACEMENT", 0), ("VELOCITY", 1), ("ACCELERATION", 2)):
+        job = Job("shaken_" + kind.lower(), balocco, "2" if power else "1", folder)
+        base = "*BASE MOTION, DOF=1, SCALE=0.3, AMPLITUDE=GROWING, TYPE=%s\n*BASE MOTION, DOF=1, SCALE=0.1, IMAGINARY, TYPE=%s\n" % (kind, kind)
+        job.run(oscillator(LINEAR + "0.5, 10., 30\n" + base + NO_FRAMES + TOLD % ("ALL", "U, TU, TV, TA1, RF"), c))
+        f, u = told(job, 2, "U")
+        w = 2.0 * math.pi * f
+        moved = (0.3 * (1.0 + f / 100.0) + 0.1j) / (1j * w) ** power
+        relative = MASS * w**2 * moved / (STIFFNESS - w**2 * MASS + 1j * w * c)
+        check("relative displacement, " + kind, worst(u[:, 0], relative), 0.0, 1e-10)
+        check("total displacement", worst(told(job, 2, "TU")[1][:, 0], relative + moved), 0.0, 1e-10)
+        check("total velocity", worst(told(job, 2, "TV")[1][:, 0], 1j * w * (relative + moved)), 0.0, 1e-10)
+        check("total acceleration", worst(told(job, 2, "TA1")[1], -w**2 * (relative + moved)), 0.0, 1e-10)
+        check("the base itself", worst(told(job, 1, "TU")[1][:, 0], moved), 0.0, 1e-10)
+        check("reaction of the base", worst(told(job, 1, "RF")[1][:, 0], -(STIFFNESS + 1j * w * c) * relative), 0.0, 1e-10)
+
+
+def turned(balocco, folder):
+    """The base turns about an axis 2 away from the mass, which is free across it: it is moved by twice the angle."""
+    deck = oscillator(LINEAR + "0.5, 6., 20\n*MODAL DAMPING\n1, 1, 0.1\n*BASE MOTION, DOF=6, SCALE=0.01, TYPE=DISPLACEMENT\n-1., 0., 0.\n"
+                      + NO_FRAMES + TOLD % ("ALL", "U, TU"))
+    deck = deck.replace("TYPE=SPRINGA", "TYPE=SPRING2").replace("*SPRING, ELSET=SPRING\n\n", "*SPRING, ELSET=SPRING\n2, 2\n")
+    deck = deck.replace("2, 2, 3\n*STEP", "2, 1\n2, 3\n*STEP")
+    for ranks in "12":
+        job = Job("turned_on_" + ranks, balocco, ranks, folder)
+        job.run(deck)
+        f, u = told(job, 2, "U")
+        w = 2.0 * math.pi * f
+        relative = MASS * w**2 * 0.02 / (STIFFNESS - w**2 * MASS + 1j * w * 0.2 * math.sqrt(STIFFNESS * MASS))
+        check("across the arm", worst(u[:, 1], relative), 0.0, 1e-10)
+        check("in total", worst(told(job, 2, "TU")[1][:, 1], relative + 0.02), 0.0, 1e-10)
+
+
+def biased(first, last, points, bias, to, back):
+    y = np.linspace(-1.0, 1.0, points)
+    middle, half = 0.5 * (to(first) + to(last)), 0.5 * (to(last) - to(first))
+    return back(middle + half * np.sign(y) * np.abs(y) ** (1.0 / bias))
+
+
+def frequencies(balocco, folder):
+    """Points crowd about the eigenfrequency: of linear and of logarithmic scale, several ranges, a factor, one frequency alone."""
+    damped, force = "*MODAL DAMPING\n1, 1, 0.02\n", "*CLOAD\n2, 1, 1.\n"
+    same = lambda x: x
+    log = lambda first, last, points, bias=3.0: biased(first, last, points, bias, np.log, np.exp)
+    linear = lambda first, last, points, bias=3.0: biased(first, last, points, bias, same, same)
+    default = np.concatenate([log(1.0, NATURAL, 20), log(NATURAL, 8.0, 20)[1:]])
+    scaled = 1.02 * np.concatenate([linear(1.0, NATURAL, 5), linear(NATURAL, 8.0, 5)[1:]])[1:-1]
+    for number, (text, wanted) in enumerate([
+            ("*STEADY STATE DYNAMICS\n1., 8.\n", default),
+            ("*STEADY STATE DYNAMICS, FREQUENCY SCALE=LINEAR\n1., 8., 6, 2.\n", np.concatenate([linear(1.0, NATURAL, 6, 2.0), linear(NATURAL, 8.0, 6, 2.0)[1:]])),
+            ("*STEADY STATE DYNAMICS, INTERVAL=RANGE\n1., 2., 4\n2., 8., 5, 3.\n9.\n",
+             np.concatenate([log(1.0, 2.0, 4, 1.0), log(2.0, 8.0, 5)[1:], [9.0]])),
+            ("*STEADY STATE DYNAMICS, FREQUENCY SCALE=LINEAR\n1., 8., 5, 3., 1.02\n", np.concatenate([[1.0], scaled[scaled < 8.0], [8.0]]))]):
+        job = Job("frequencies_%d" % number, balocco, "2" if number == 0 else "1", folder)
+        job.run(oscillator(text + damped + force + TOLD % ("ALL", "U1")))
+        f, u = told(job, 2, "U1")
+        check("number of frequencies", len(f), len(wanted), 0.0)
+        check("frequencies", np.abs(f / wanted - 1.0).max(), 0.0, 1e-12)
+        with h5py.File(job.folder / (job.name + ".h5")) as file:
+            frames = [file["step_2/frame_%d" % i] for i in range(len(f))]
+            check("frames", max(abs(frame.attrs["frequency"] / f[i] - 1.0) for i, frame in enumerate(frames)), 0.0, 1e-15)
+            seen = np.array([frame["node/U_REAL"][1, 0] + 1j * frame["node/U_IMAG"][1, 0] for frame in frames])
+        check("frames in single precision", worst(seen, u), 0.0, 1e-6)
+        described = (job.folder / (job.name + ".step_2.xdmf")).read_text()
+        check("frames that ParaView reads", described.count("<Time Value="), len(f), 0.0)
+
+
+def bar(balocco, folder):
+    """A cantilever of bricks with modal damping: the sum of its modes at a node, and far below its lowest mode, with all modes, the statics
+    of the same loads, one a quarter of a cycle ahead: displacements, reactions and stresses, of both parts. Base motion acts as its inertia."""
+    damping, load, pull = "*MODAL DAMPING\n1, 72, 0.03\n", "*CLOAD\nTIP, 3, 0.5\n", "*CLOAD, LOAD CASE=2\nTIP, 2, 0.2\n*DLOAD, IMAGINARY\nBODY, GRAV, 300., 1., 0., 0.\n"
+    told_bar = "*OUTPUT, FIELD, PRECISION=DOUBLE\n*NODE OUTPUT\nU, RF\n*ELEMENT OUTPUT\nS\n"
+    harmonic = "*STEADY STATE DYNAMICS, INTERVAL=RANGE\n1e-5, 900., 12\n"
+    jobs = []
+    for ranks in "12":
+        job = Job("bar_on_" + ranks, balocco, ranks, folder)
+        job.run(cantilever("", ["*FREQUENCY\n72", harmonic + damping + load + pull + told_bar]))
+        jobs.append(job)
+    statics = Job("bar_at_rest", balocco, "1", folder)
+    statics.run(cantilever("", ["*STATIC\n" + load + told_bar, "*STATIC\n" + load.replace("*CLOAD", "*CLOAD, OP=NEW") .replace("TIP, 3, 0.5", "TIP, 2, 0.2")
+                                + "*DLOAD\nBODY, GRAV, 300., 1., 0., 0.\n" + told_bar]))
+    with h5py.File(jobs[0].folder / "bar_on_1.h5") as file, h5py.File(jobs[1].folder / "bar_on_2.h5") as other:
+        shapes = [file["step_1/mode_%d" % i] for i in range(1, 73)]
+        tip = [6, 13, 20, 27]
+        worst_sum = worst_pair = 0.0
+        for i in range(12):
+            frame = file["step_2/frame_%d" % i]
+            f = frame.attrs["frequency"]
+            # The share of gravity of a node is a body's mass of 6 * 125e-3 spread by eighths of each brick.
+            weight = np.array([0.0156250 * (1 if n % 7 in (0, 6) else 2) for n in range(28)]) * 300.0
+            total = 0.0
+            for shape in shapes:
+                u, mass, natural = shape["node/U"][:], shape.attrs["generalized_mass"], shape.attrs["frequency"]
+                push = 0.5 * u[tip, 2].sum() + 1j * (0.2 * u[tip, 1].sum() + weight @ u[:, 0])
+                total = total + u * push / mass / (4.0 * math.pi**2 * (natural**2 - f**2 + 0.06j * natural * f))
+            found = frame["node/U_REAL"][:] + 1j * frame["node/U_IMAG"][:]
+            worst_sum = max(worst_sum, worst(found, total))
+            for name in ("U_REAL", "U_IMAG", "RF_REAL", "RF_IMAG"):
+                a, b = frame["node/" + name][:], other["step_2/frame_%d/node/%s" % (i, name)][:]
+                worst_pair = max(worst_pair, np.abs(a - b).max() / np.abs(a).max())
+        check("sum of modes", worst_sum, 0.0, 1e-8)
+        check("two ranks", worst_pair, 0.0, 1e-6)
+        slow = file["step_2/frame_0"]
+        for part, step in (("_REAL", 1), ("_IMAG", 2)):
+            for variable in ("U", "RF"):
+                check(variable + part + " of statics", worst(slow["node/" + variable + part][:], statics.frame(variable, -1, step)), 0.0, 1e-4)
+            check("S" + part, worst(slow["element/C3D8I/S" + part][:], statics.element("C3D8I", "S", -1, step)), 0.0, 1e-4)
+
+
+def printed(balocco, folder):
+    """*NODE PRINT and *EL PRINT tell real parts first, as CalculiX does, with the frequency for the time; energies have no parts."""
+    job = Job("printed", balocco, "1", folder)
+    said = job.run(oscillator(LINEAR + "2.\n*MODAL DAMPING\n1, 1, 0.1\n*CLOAD, LOAD CASE=2\n2, 1, 7.\n*NODE PRINT, NSET=ALL\nU\n*OUTPUT, FIELD\n"
+                              "*NODE OUTPUT\nU\n*OUTPUT, HISTORY\n*ENERGY OUTPUT\nALLKE\n"))
+    check("energies are told to be left out", "ALLKE have no real and imaginary part" in said, True, 0.0)
+    lines = (job.folder / "printed.dat").read_text().split("S T E P       2")[1].splitlines()
+    titles = [line for line in lines if "displacements" in line]
+    values = [float(line.split()[1]) for line in lines if line.split()[:1] == ["2"]]
+    w = 4.0 * math.pi
+    wanted = 7j / (STIFFNESS - w**2 * MASS + 1j * w * 0.2 * math.sqrt(STIFFNESS * MASS))
+    check("tables", len(titles), 2, 0.0)
+    check("of the frequency", all("time  0.2000000E+01" in title for title in titles), True, 0.0)
+    check("real part", values[0], wanted.real, 1e-6)
+    check("imaginary part", values[1], wanted.imag, 1e-6)
+
+
+def tables(path):
+    """Title and numbers of each table of a set that a .dat has."""
+    found = []
+    for line in open(path):
+        if " for set " in line:
+            found.append((" ".join(line.split()), []))
+        elif re.search("[A-Z] [A-Z] [A-Z]|[A-DF-Z]", line):
+            found.append((None, []))  # something else, until the next table
+        elif line.strip() and found:
+            found[-1][1].append([float(word) for word in line.split()[1:]])
+    return [(title, np.array(rows)) for title, rows in found if title]
+
+
+def calculix(balocco, folder):
+    """A cantilever under forces of two phases that grow with the frequency, with modal damping, and under a pressure, with Rayleigh's:
+    displacements and stresses of both parts as CalculiX 2.20 printed them for ccx/harmonic.inp (ccx/harmonic.dat: its tables of sets)."""
+    deck = pathlib.Path(__file__).parent / "ccx" / "harmonic.inp"
+    theirs = tables(deck.with_suffix(".dat"))
+    for ranks in "12":
+        job = Job("harmonic_on_" + ranks, balocco, ranks, folder)
+        job.run(deck.read_text())
+        ours = tables(job.folder / (job.name + ".dat"))
+        check("tables and their frequencies", [title for title, _ in ours] == [title for title, _ in theirs], True, 0.0)
+        for what, tolerance in (("displacements", 1e-6), ("stresses", 1e-5)):
+            pairs = [(mine, reference) for (_, mine), (title, reference) in zip(ours, theirs) if title.startswith(what)]
+            check(what, max(worst(mine, reference) for mine, reference in pairs), 0.0, tolerance)
+
+
+def unbounded(balocco, folder):
+    """An undamped mode that is excited at its own frequency ends the run; one that nothing excites does not."""
+    both = "*ELEMENT, TYPE=SPRING2, ELSET=ACROSS\n5, 1, 2\n*SPRING, ELSET=ACROSS\n2, 2\n4000.\n"
+    deck = oscillator("*STEADY STATE DYNAMICS\n1., 8., 5\n*CLOAD\n2, 1, 1.\n" + TOLD % ("ALL", "U1"), elements=both)
+    for ranks in "12":
+        said = Job("unbounded_on_" + ranks, balocco, ranks, folder).run(deck, expected_status=3)
+        check("told", "mode 1 of %.7g cycles/time is excited at its own frequency and not damped" % NATURAL in said, True, 0.0)
+    idle = deck.replace("2, 2, 3\n*STEP", "2, 3\n*STEP").replace("*FREQUENCY\n1", "*FREQUENCY\n2").replace("1., 8., 5", "4., 8., 5")
+    job = Job("idle", balocco, "1", folder)
+    job.run(idle)
+    f, u = told(job, 2, "U1")
+    check("frequencies", len(f), 9, 0.0)
+    check("beside the mode across", worst(u, 1.0 / (STIFFNESS - MASS * (2.0 * math.pi * f) ** 2)), 0.0, 1e-9)
+
+
+if __name__ == "__main__":
+    cases = (forced, shaken, turned, frequencies, bar, printed, calculix, unbounded)
+    {case.__name__: case for case in cases}[sys.argv[1]](*sys.argv[2:])
+    sys.exit(1 if failures else 0)
