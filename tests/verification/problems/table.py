@@ -13,6 +13,7 @@ import contact  # noqa: F401
 import dynamics  # noqa: F401
 import elements
 import frequencies  # noqa: F401
+import harmonics  # noqa: F401
 import laws  # noqa: F401
 import metals  # noqa: F401
 import sheets  # noqa: F401
