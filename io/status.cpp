@@ -161,13 +161,10 @@ void Status::show(const Progress& progress, bool now) {
   text += step.is_harmonic() ? fmt::format("frequency {:.6g}, largest displacement {:.4g}", progress.frequency, progress.largest_displacement)
                              : fmt::format("{:3.0f} %, increment {}, time {:.6g} of {:g}, dt {:.4g}", 100.0 * view.fraction, progress.increment,
                                            progress.step_time, step.duration(), progress.time_increment);
-  if (step.is_harmonic()) {
-    // It has no iterations, and is over soon.
-  } else if (step.has_few_increments()) {
-    text += fmt::format(", {} iterations", progress.iterations);
-  } else {
+  if (!step.has_few_increments())
     text += fmt::format(", {:.3g} elements/s, {} left", view.elements_per_second, duration_text(view.remaining));
-  }
+  else if (!step.is_harmonic())
+    text += fmt::format(", {} iterations", progress.iterations);
   if (terminal_) {
     std::printf("\r\033[K%s%s", text.c_str(), progress.step_finished ? "\n" : "");
     line_open_ = !progress.step_finished;

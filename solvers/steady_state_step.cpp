@@ -70,7 +70,7 @@ class SteadyStateStep {
   HarmonicForces forces_at(double frequency);
   ComplexVector respond(double frequency, const HarmonicForces& forces) const;
   void show_part(double omega, const ComplexVector& amplitude, const HarmonicForces& forces, int part);
-  double largest_displacement(const ComplexVector& amplitude) const;
+  double largest_displacement() const;
   bool tell(double frequency, std::int64_t increment, bool last);
 
   Analysis& analysis_;
@@ -179,13 +179,13 @@ void SteadyStateStep::show_part(double omega, const ComplexVector& amplitude, co
 }
 
 /// Greatest size of a component of the relative displacement over a cycle, of any node of any rank.
-double SteadyStateStep::largest_displacement(const ComplexVector& amplitude) const {
+double SteadyStateStep::largest_displacement() const {
+  std::vector<double> real(3 * static_cast<std::size_t>(analysis_.domain.size())), imaginary(real.size());
+  const auto parts = results_.parts();
+  parts[0].source->nodal("U", real);
+  parts[1].source->nodal("U", imaginary);
   double largest = 0.0;
-  for (std::size_t at = 0; at < 3 * static_cast<std::size_t>(analysis_.domain.size()); ++at) {
-    Complex sum = 0.0;
-    for (std::size_t mode = 0; mode < modes_.size(); ++mode) sum += amplitude[static_cast<Eigen::Index>(mode)] * modes_[mode].displacement[at];
-    largest = std::max(largest, std::abs(sum));
-  }
+  for (std::size_t i = 0; i < real.size(); ++i) largest = std::max(largest, std::hypot(real[i], imaginary[i]));
   return analysis_.communicator.maximum(largest);
 }
 
@@ -204,7 +204,7 @@ bool SteadyStateStep::tell(double frequency, std::int64_t increment, bool last) 
                                        .step_time = state.step_time,
                                        .total_time = state.total_time,
                                        .frequency = frequency,
-                                       .largest_displacement = largest_displacement(amplitude),
+                                       .largest_displacement = largest_displacement(),
                                        .step_finished = last});
 }
 

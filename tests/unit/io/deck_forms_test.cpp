@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "deck_support.hpp"
+#include "deck_writer.hpp"
 #include "model/check.hpp"
 
 namespace balocco {
@@ -142,6 +143,10 @@ TEST(DeckForms, HarmonicLoadsHaveTwoPartsAndAnAmplitudeOverTheFrequency) {
   const auto& shown = step.field_outputs.at(0).element_variables;
   EXPECT_EQ(std::ranges::count(shown, "S"), 1);
   EXPECT_EQ(std::ranges::count(shown, "MISES"), 0) << "it has no real and imaginary part";
+  const auto again = read(write_deck(model)).model;
+  EXPECT_EQ(write_deck(again), write_deck(model));
+  EXPECT_TRUE(std::get<SteadyStateProcedure>(again.steps[1].procedure).base_motions.at(0).imaginary);
+  EXPECT_EQ(again.steps[1].surface_loads.size(), 2u);
 }
 
 }  // namespace
