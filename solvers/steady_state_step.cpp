@@ -66,6 +66,7 @@ class SteadyStateStep {
 
  private:
   RigidBaseMotion rigid_motion_of(const BaseMotion& motion) const;
+  void tell_missing_modes() const;
   void move_base(double frequency);
   HarmonicForces forces_at(double frequency);
   ComplexVector respond(double frequency, const HarmonicForces& forces) const;
@@ -113,6 +114,17 @@ SteadyStateStep::SteadyStateStep(Analysis& analysis, const Step& step, Observer&
     base_.push_back(rigid_motion_of(motion));
     base_inertia_.push_back(forces_.inertia(base_.back().displacement, base_.back().rotation));
   }
+}
+
+/// *FREQUENCY may have stopped short of what the step asks for.
+void SteadyStateStep::tell_missing_modes() const {
+  const auto& search = std::get<FrequencyProcedure>(analysis_.model.steps[analysis_.step_of_modes].procedure);
+  const double wanted = frequencies_.back(), highest = modes_.back().frequency;
+  const bool all_asked = search.number && *search.number == static_cast<std::int32_t>(modes_.size());
+  if (highest >= wanted || !(all_asked || (search.upper && *search.upper < wanted))) return;
+  observer_.log(fmt::format("  warning: modes were sought up to {:.7g} cycles/time only, the response is asked for up to {:.7g}: it lacks those beyond, if there "
+                            "are any; let *FREQUENCY find more",
+                            all_asked ? highest : *search.upper, wanted));
 }
 
 /// A unit motion along the axis, or about it, of the model where its modes were found.
@@ -213,6 +225,7 @@ Outcome SteadyStateStep::run() {
   observer_.step_started(results_, state.step);
   observer_.log(fmt::format("step {} '{}': steady-state dynamics, {} modes, {} frequencies from {:.7g} to {:.7g} cycles/time", state.step + 1,
                             step_.name, modes_.size(), frequencies_.size(), frequencies_.front(), frequencies_.back()));
+  tell_missing_modes();
   analysis_.small_strain().perturb(std::make_shared<SmallStrainOutput::Base>(base_of(analysis_)));
   bool go_on = true;
   for (std::size_t i = 0; i < frequencies_.size() && go_on; ++i)

@@ -143,6 +143,13 @@ void check_base(Builder& builder, const SteadyStateProcedure& procedure) {
                                        "above 0, or TYPE=DISPLACEMENT");
 }
 
+void tell_of_rest(Builder& builder, const Step& step, const SteadyStateProcedure& procedure) {
+  const bool is_loaded = !step.concentrated_loads.empty() || !step.surface_loads.empty() || !step.body_loads.empty();
+  if (is_loaded || !procedure.base_motions.empty() || builder.draft.faulty) return;
+  builder.diagnostics.warning(builder.draft.location, "STEADY STATE DYNAMICS",
+                              fmt::format("step {} has no loads and no *BASE MOTION: nothing moves (loads of steps before do not go on in it)", step.name));
+}
+
 /// What is written is what the step itself asks for, and what has a real and an imaginary part.
 void settle_outputs(Builder& builder, Step& step) {
   const auto& draft = builder.draft;
@@ -213,6 +220,7 @@ void settle_harmonics(Builder& builder) {
   check_held_freedoms(builder, step);
   check_drives(builder, step);
   check_base(builder, *procedure);
+  tell_of_rest(builder, step, *procedure);
   settle_outputs(builder, step);
 }
 
