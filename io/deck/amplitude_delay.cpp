@@ -37,7 +37,7 @@ std::optional<std::int32_t> amplitude_of(Builder& builder, const Block& block) {
     builder.error(block, block.location, "TIME DELAY must not be negative; correct it");
     return std::nullopt;
   }
-  if (delay > 0.0) note_timed(builder, block, "TIME DELAY");
+  if (delay > 0.0) refuse_in_harmonics(builder, block, without_times("TIME DELAY"));
   return row && delay > 0.0 ? std::optional(delayed(builder, *row, delay)) : row;
 }
 

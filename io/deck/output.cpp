@@ -34,7 +34,7 @@ bool set_times(Builder& builder, const Block& block, FieldOutput& output) {
     output.time_points = *points;
   }
   for (const char* mark : {"NUMBER INTERVAL", "TIME INTERVAL", "TIME POINTS"})
-    if (block.has(mark)) note_timed(builder, block, mark);
+    if (block.has(mark)) refuse_in_harmonics(builder, block, without_times(mark));
   if (marks > 1) {
     builder.error(block, block.location, "give one of FREQUENCY, NUMBER INTERVAL, TIME INTERVAL and TIME POINTS");
     return false;

@@ -29,8 +29,9 @@ std::optional<PrintOutput> begin_print(Builder& builder, const Block& block, Pri
   replace_earlier(builder, kind);
   PrintOutput output;
   output.kind = kind;
-  if (block.has("TIME POINTS")) note_timed(builder, block, "TIME POINTS");
-  if (kind == PrintOutput::Kind::section || kind == PrintOutput::Kind::contact) note_timed(builder, block, "this table");
+  if (block.has("TIME POINTS")) refuse_in_harmonics(builder, block, without_times("TIME POINTS"));
+  if (kind == PrintOutput::Kind::section || kind == PrintOutput::Kind::contact)
+    refuse_in_harmonics(builder, block, "this table is not told of harmonic responses; use *NODE PRINT, *EL PRINT or *OUTPUT");
   output.frequency = block.integer("FREQUENCY", 1);
   if (output.frequency < 0) builder.error(block, block.location, "FREQUENCY must not be negative; correct it");
   if (output.frequency <= 0) return std::nullopt;

@@ -192,7 +192,7 @@ bool is_imaginary(Builder& builder, const Block& block) {
   const auto is_told = [&](const auto& note) { return note.location.file == block.location.file && note.location.line == block.location.line; };
   if (std::ranges::any_of(notes, is_told)) return block.has("IMAGINARY") || block.integer("LOAD CASE", 1) == 2;
   const char* what = block.has("LOAD CASE") ? "LOAD CASE" : block.has("REAL") ? "REAL" : "IMAGINARY";
-  notes.push_back({block.location, block.written, what});
+  notes.push_back({block.location, block.written, fmt::format("{} belongs to the harmonic loads of *STEADY STATE DYNAMICS; remove it", what)});
   const auto load_case = block.integer("LOAD CASE", 1);
   if (said > 1) builder.error(block, block.location, "give one of LOAD CASE, REAL and IMAGINARY");
   if (load_case != 1 && load_case != 2)
@@ -200,23 +200,22 @@ bool is_imaginary(Builder& builder, const Block& block) {
   return block.has("IMAGINARY") || load_case == 2;
 }
 
-void note_timed(Builder& builder, const Block& block, std::string what) {
-  builder.draft.timed.push_back({block.location, block.written, std::move(what)});
+void refuse_in_harmonics(Builder& builder, const Block& block, std::string text) {
+  builder.draft.timed.push_back({block.location, block.written, std::move(text)});
+}
+
+std::string without_times(const char* parameter) {
+  return fmt::format("{} means nothing in a step of *STEADY STATE DYNAMICS, which has frequencies and no times; remove it", parameter);
 }
 
 void settle_harmonics(Builder& builder) {
   Step& step = current_step(builder);
   const auto* procedure = std::get_if<SteadyStateProcedure>(&step.procedure);
   if (procedure == nullptr) {
-    for (const auto& note : builder.draft.harmonic)
-      builder.diagnostics.error(note.location, note.keyword,
-                                fmt::format("{} belongs to the harmonic loads of *STEADY STATE DYNAMICS; remove it", note.what));
+    for (const auto& note : builder.draft.harmonic) builder.diagnostics.error(note.location, note.keyword, note.text);
     return;
   }
-  for (const auto& note : builder.draft.timed)
-    builder.diagnostics.error(note.location, note.keyword,
-                              fmt::format("{} means nothing in a step of *STEADY STATE DYNAMICS, which has frequencies and no times; remove it",
-                                          note.what));
+  for (const auto& note : builder.draft.timed) builder.diagnostics.error(note.location, note.keyword, note.text);
   check_held_freedoms(builder, step);
   check_drives(builder, step);
   check_base(builder, *procedure);

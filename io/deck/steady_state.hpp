@@ -12,8 +12,10 @@ bool is_imaginary(Builder& builder, const Block& block);
 /// For writers: how such a load is marked.
 inline const char* part_parameter(bool imaginary) { return imaginary ? ", LOAD CASE=2" : ""; }
 
-/// Notes that something in the step has a meaning over time alone.
-void note_timed(Builder& builder, const Block& block, std::string what);
+/// Notes what a harmonic step does not take, should this one be such: what is wrong and how to mend it. `without_times` says so of a parameter
+/// that has a meaning over time alone.
+void refuse_in_harmonics(Builder& builder, const Block& block, std::string text);
+std::string without_times(const char* parameter);
 
 /// At the end of a step: refuses parts of loads in steps of times, and times in harmonic steps; these write what they ask for themselves.
 void settle_harmonics(Builder& builder);

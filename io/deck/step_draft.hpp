@@ -42,12 +42,12 @@ struct StepDraft {
   enum class Output { none, field, history } output = Output::none;  // what the latest *OUTPUT asked for
   std::size_t first_field = 0;  // row of Step::field_outputs that the latest *OUTPUT, FIELD began
 
-  /// Something that steps of other procedures do not take: where, of which keyword, and what it is.
+  /// An error to be told if the step turns out to be of another kind.
   struct Note {
     Location location;
-    std::string keyword, what;
+    std::string keyword, text;
   };
-  std::vector<Note> harmonic, timed;  // of harmonic steps alone; of steps over time alone
+  std::vector<Note> harmonic, timed;  // of what harmonic steps alone have, and what they alone have not
 
   /// True if a load was said (again) in this step.
   template <class Load>

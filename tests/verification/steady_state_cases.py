@@ -210,7 +210,7 @@ def frequencies(balocco, folder):
              ("*STEADY STATE DYNAMICS, INTERVAL=RANGE\n1., 2., 4\n2., 8., 5, 3.\n9.\n",
               np.concatenate([log(1.0, 2.0, 4, 1.0), log(2.0, 8.0, 5)[1:], [9.0]])),
              ("*STEADY STATE DYNAMICS, FREQUENCY SCALE=LINEAR\n1., 8., 5, 3., 1.02\n", np.concatenate([[1.0], scaled[scaled < 8.0], [8.0]]))]
-    job = Job("frequencies", balocco, "2", folder)
+    job = Job("frequencies", balocco, "1", folder)
     job.run(oscillator([text + damped + force + TOLD % ("ALL", "U1") for text, _ in kinds]))
     for step, (_, wanted) in enumerate(kinds, 2):
         f, u = told(job, 2, "U1", step)
