@@ -86,7 +86,14 @@ void RigidDynamics::add_nodes(const Analysis& analysis, std::size_t index) {
   body.pushed = body.active = body.nodes.size();
 }
 
-void RigidDynamics::rest_nodes(const Uses& uses) {
+void RigidDynamics::rest_nodes(const Analysis& analysis, const Uses& uses) {
+  std::vector<double> pushed(bodies_.size(), 0.0);  // on any rank
+  for (std::size_t i = 0; i < bodies_.size(); ++i)
+    if (std::ranges::any_of(bodies_[i].nodes, [&](const CarriedNode& carried) { return uses.pushed[carried.node]; })) pushed[i] = 1.0;
+  for (const auto& contact : analysis.contacts)
+    if (contact.master_body() >= 0) pushed[contact.master_body()] = 1.0;
+  analysis.communicator.maximum(std::span<double>(pushed));
+  for (std::size_t i = 0; i < bodies_.size(); ++i) bodies_[i].is_pushed = pushed[i] > 0.0;
   for (auto& body : bodies_) {
     const auto is_pushed = [&](const CarriedNode& carried) {
       return carried.node == body.reference || uses.pushed[carried.node] || carried.turns != carried.oriented;
@@ -204,14 +211,13 @@ void RigidDynamics::sum_forces(const Analysis& analysis, const NodalForces& forc
   find_weights(analysis, instant);
   std::int32_t count = 0;
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const bool skipped = which == Which::that_need_it && is_held_still(analysis, i, instant);
-    bodies_[i].sum = skipped ? -1 : count++;
-    bodies_[i].force = {};
-    if (skipped) continue;
-    for (auto& sum : sums_of(bodies_[i])) sum.clear();
-    add_body_forces(analysis, forces, i, sums_of(bodies_[i]));
+    auto& body = bodies_[i];
+    body.needs_force = which == Which::all || !is_held_still(analysis, i, instant);
+    body.sum = body.needs_force && body.is_pushed ? count++ : -1;
+    if (body.sum < 0) continue;
+    for (auto& sum : sums_of(body)) sum.clear();
+    add_body_forces(analysis, forces, i, sums_of(body));
   }
-  if (count == 0) return;
   for (const auto pair : step_.active_contact_pairs) {
     const auto& contact = analysis.contacts[pair];
     if (contact.master_body() < 0) continue;
@@ -220,15 +226,15 @@ void RigidDynamics::sum_forces(const Analysis& analysis, const NodalForces& forc
     contact.add_master_resultant(analysis.current.position.data(), analysis.current.rigid_bodies[master],
                                  analysis.current.contact[pair], sums_of(bodies_[master]));
   }
-  analysis.communicator.sum(std::span(sums_).first(6 * static_cast<std::size_t>(count)));
+  if (count > 0) analysis.communicator.sum(std::span(sums_).first(6 * static_cast<std::size_t>(count)));
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    if (bodies_[i].sum < 0) continue;
-    const auto sums = sums_of(bodies_[i]);
-    const Vector3<double> moment{
-        {sums[3].value() + moments[i][0], sums[4].value() + moments[i][1], sums[5].value() + moments[i][2]}};
-    const auto& weight = bodies_[i].weight;
-    bodies_[i].force = along(bodies_[i].axes, Vector3<double>{{sums[0].value(), sums[1].value(), sums[2].value()}} + weight.translation(),
-                             moment + weight.rotation());
+    auto& body = bodies_[i];
+    body.force = {};
+    if (!body.needs_force) continue;
+    Vector6 force;
+    for (std::size_t c = 0; body.sum >= 0 && c < 6; ++c) force[c] = sums_of(body)[c].value();
+    body.force = along(body.axes, force.translation() + body.weight.translation(),
+                       force.rotation() + vector_of(moments[i]) + body.weight.rotation());
   }
 }
 

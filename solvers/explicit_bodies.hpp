@@ -49,8 +49,8 @@ class RigidDynamics {
     std::vector<bool> pushed;  // an element, a contact, a load or damping may act there
     std::vector<bool> asked;   // so may a constraint, which wants its place and gives its force to the body
   };
-  /// Nodes of which nothing is wanted need not follow their body before somebody looks.
-  void rest_nodes(const Uses& uses);
+  /// Nodes of which nothing is wanted need not follow their body before somebody looks; nor are forces summed where none can be. Collective.
+  void rest_nodes(const Analysis& analysis, const Uses& uses);
   /// Where somebody looks: puts those nodes where their bodies are, with their velocities over the next increment.
   void bring_resting_nodes(Analysis& analysis, double increment) const;
   /// Whether a node that turns has its orientation from a body.
@@ -113,7 +113,9 @@ class RigidDynamics {
     std::vector<CarriedNode> nodes;
     std::size_t pushed = 0, active = 0;  // numbers of the first of them: those that are pushed, and asked too; the others rest
     Vector6 weight{};        // gravity on what it carries, about the reference node, global
-    std::int32_t sum = -1;  // its six sums start at 6 * sum; -1: it needs none in this increment
+    bool is_pushed = true;   // nodal forces or a contact may act on it, on some rank
+    bool needs_force = true;  // in this increment
+    std::int32_t sum = -1;   // its six sums start at 6 * sum; -1: there is nothing to sum in this increment
     // At the current instant, along the degrees of freedom:
     Vector6 force{}, acceleration{}, reaction{};
     Vector3<double> spin{};  // at the instant, global

@@ -116,7 +116,7 @@ ExplicitStep::ExplicitStep(Analysis& analysis, const Step& step, Observer& obser
   find_neighbours();
   find_loaded_nodes();
   const auto uses = uses_of_nodes();
-  bodies_.rest_nodes(uses);
+  bodies_.rest_nodes(analysis, uses);
   list_acting_nodes(uses);
   list_drifting_nodes();
   if (has_loads_) {

@@ -10,6 +10,17 @@
 
 namespace balocco {
 
+namespace {
+
+/// A connector without a law has no force.
+bool measures_alone(const Model& model, const ElementGroup& group, std::int32_t element) {
+  if (model.elements[group.table()].type->section != Section::Kind::connector) return false;
+  const auto [along, about] = std::pair(group.restraint(element), group.rotary_restraint(element));
+  return along.stiffness + along.viscosity + along.force + about.stiffness + about.viscosity + about.force == 0.0;
+}
+
+}  // namespace
+
 void ExplicitStep::refuse_loads_without_inertia() const {
   const Model& model = analysis_.model;
   for (const auto& load : step_.concentrated_loads) {
@@ -74,14 +85,17 @@ RigidDynamics::Uses ExplicitStep::uses_of_nodes() const {
   const auto& domain = analysis_.domain;
   const std::vector<bool> none(static_cast<std::size_t>(domain.size()), false);
   RigidDynamics::Uses uses{none, none};
-  const auto push = [&](const auto& nodes) {
-    for (const auto node : nodes) uses.pushed[node] = true;
+  const auto mark = [](std::vector<bool>& nodal) {
+    return [&nodal](std::span<const std::int32_t> nodes) {
+      for (const auto node : nodes) nodal[node] = true;
+    };
   };
+  const auto push = mark(uses.pushed), ask = mark(uses.asked);
   push(loaded_nodes_);
   for (const auto& neighbour : neighbours_) push(neighbour.nodes);  // what another rank does there
   for (const auto& group : analysis_.element_groups)
     for (std::int32_t element = 0; element < group->size(); ++element)
-      if (group->acts(element)) push(group->nodes(element));
+      if (group->acts(element)) (measures_alone(analysis_.model, *group, element) ? ask : push)(group->nodes(element));
   for (const auto& contact : analysis_.contacts) push(contact.nodes());
   for (const auto& contact : analysis_.mesh_contacts) push(contact.all_nodes());
   const auto& inertia = analysis_.inertia;
