@@ -47,6 +47,8 @@ RigidDynamics::RigidDynamics(const Analysis& analysis, const Step& step) : step_
       bodies_[index].is_free = false;
     }
   }
+  for (auto& body : bodies_)
+    if (body.is_free) body.axes = Matrix3<double>::identity();  // what is free has no directions of its own
   sum_gravity(analysis);
   renew_inertia(analysis);
 }
@@ -107,9 +109,9 @@ void RigidDynamics::rest_nodes(const Analysis& analysis, const Uses& uses) {
 
 void RigidDynamics::bring_resting_nodes(Analysis& analysis, double increment) const {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
-    const auto resting = std::span(bodies_[i].nodes).subspan(bodies_[i].active);
-    place(analysis, analysis.current.rigid_bodies[i], resting);
-    set_node_velocities(analysis, i, increment, resting);
+    const std::span nodes(bodies_[i].nodes);
+    place(analysis, analysis.current.rigid_bodies[i], nodes.subspan(bodies_[i].active));
+    set_node_velocities(analysis, i, increment, nodes.subspan(bodies_[i].pushed));
   }
 }
 
@@ -248,34 +250,43 @@ Vector6 RigidDynamics::prescribed(const Analysis& analysis, const Body& body, co
   return velocity;
 }
 
-Vector6 RigidDynamics::new_velocity(const Body& body, const Vector6& old_velocity, const Response& response, const Instant& instant,
-                                    const Vector6& wanted) const {
-  Vector6 velocity = old_velocity + instant.average() * response.acceleration;
+RigidDynamics::NewMotion RigidDynamics::motion_under(const Analysis& analysis, std::size_t index, const Vector6& force, const Instant& instant) const {
+  const auto& body = bodies_[index];
+  const auto& state = analysis.current.rigid_bodies[index];
+  NewMotion result;
+  if (body.is_free) {
+    result.old_velocity = velocity(analysis, index);
+    result.response = solve_free(state, body, force, result.old_velocity, instant);
+    result.velocity = result.old_velocity + instant.average() * result.response.acceleration;
+    return result;
+  }
+  const auto now = motion(analysis, body, index);
+  const auto wanted = prescribed(analysis, body, now, instant);
+  result.old_velocity = now.velocity;
+  result.response = solve(state, body, force, now.velocity, instant, wanted);
+  result.velocity = now.velocity + instant.average() * result.response.acceleration;
   for (int dof = 0; dof < 6; ++dof)
-    if (body.condition[dof] != nullptr) velocity[dof] = wanted[dof];
-  return velocity;
+    if (body.condition[dof] != nullptr) result.velocity[dof] = wanted[dof];
+  return result;
 }
 
 void RigidDynamics::accelerate(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments) {
   for (std::size_t i = 0; i < bodies_.size(); ++i) {
     auto& body = bodies_[i];
     auto& state = analysis.current.rigid_bodies[i];
-    const auto now = motion(analysis, body, i);
-    const Vector6 wanted = prescribed(analysis, body, now, instant);
-    const auto response = solve(state, body, body.force, now.velocity, instant, wanted);
+    const auto [old_velocity, velocity, response] = motion_under(analysis, i, body.force, instant);
     body.acceleration = response.acceleration;
     body.reaction = response.reaction;
     body.spin = response.spin;
-    const auto velocity = new_velocity(body, now.velocity, response, instant, wanted);
     const auto [translation, rotation] = global(body.axes, velocity);
     state.velocity = translation.component;
     state.angular_velocity = rotation.component;
 
-    const Vector6 path = instant.previous * now.velocity + instant.next * velocity;
+    const Vector6 path = instant.previous * old_velocity + instant.next * velocity;
     const auto [way, turn] = global(body.axes, path);
     analysis.current.nodal_work[body.reference].external +=
         0.5 * (dot(body.reaction, path) + dot(vector_of(moments[i]), turn) + dot(body.weight, pair_of(way, turn)));
-    set_node_velocities(analysis, i, instant.next, std::span(body.nodes).first(body.active));
+    set_node_velocities(analysis, i, instant.next, std::span(body.nodes).first(body.pushed));
   }
 }
 
@@ -287,7 +298,8 @@ void RigidDynamics::set_node_velocities(Analysis& analysis, std::size_t index, d
                            .rotation = {},
                            .nodes = {}};
   const auto spin = vector_of(middle.angular_velocity);
-  rotate(middle, (0.5 * increment * spin).component);
+  const bool has_arms = nodes.size() > 1 || (nodes.size() == 1 && nodes.front().node != bodies_[index].reference);
+  if (has_arms) rotate(middle, (0.5 * increment * spin).component);
   const auto rotation = rotation_matrix(middle);
   for (const auto& carried : nodes) {
     const auto turning = cross(spin, rotation * vector_of(carried.offset));

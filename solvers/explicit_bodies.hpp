@@ -108,10 +108,10 @@ class RigidDynamics {
     Matrix3<double> inertia{};                           // body frame, about the reference node
     Matrix3<double> axes = Matrix3<double>::identity();  // rows: directions of the degrees of freedom
     std::array<const BoundaryCondition*, 6> condition{};
-    bool is_free = true;                                 // no degree of freedom is prescribed
+    bool is_free = true;                                 // no degree of freedom is prescribed; axes are the global ones
     Matrix6 free_inverse{};                              // of the inertia of a free body, body frame
     std::vector<CarriedNode> nodes;
-    std::size_t pushed = 0, active = 0;  // numbers of the first of them: those that are pushed, and asked too; the others rest
+    std::size_t pushed = 0, active = 0;  // numbers of the first of them: those that are pushed, and asked where they are; the others rest
     Vector6 weight{};        // gravity on what it carries, about the reference node, global
     bool is_pushed = true;   // nodal forces or a contact may act on it, on some rank
     bool needs_force = true;  // in this increment
@@ -150,8 +150,14 @@ class RigidDynamics {
   Vector6 prescribed(const Analysis& analysis, const Body& body, const Motion& motion, const Instant& instant) const;
   Response solve(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity, const Instant& instant,
                  const Vector6& wanted) const;
-  Vector6 new_velocity(const Body& body, const Vector6& old_velocity, const Response& response, const Instant& instant,
-                       const Vector6& wanted) const;
+  /// Of a body without prescribed degrees of freedom.
+  Response solve_free(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity, const Instant& instant) const;
+  /// Before and over the next increment, along the degrees of freedom, and what a force does for it.
+  struct NewMotion {
+    Vector6 old_velocity, velocity;
+    Response response;
+  };
+  NewMotion motion_under(const Analysis& analysis, std::size_t index, const Vector6& force, const Instant& instant) const;
   void place(Analysis& analysis, const RigidBodyState& state, std::span<const CarriedNode> nodes) const;
   void set_node_velocities(Analysis& analysis, std::size_t index, double increment, std::span<const CarriedNode> nodes) const;
   bool is_held_still(const Analysis& analysis, std::size_t index, const Instant& instant) const;

@@ -168,7 +168,7 @@ RigidDynamics::Response RigidDynamics::solve(const RigidBodyState& state, const 
   Vector6 known, load;
   for (int dof = 0; dof < 6; ++dof)
     if (body.condition[dof] != nullptr) known[dof] = (wanted[dof] - old_velocity[dof]) / instant.average();
-  const auto held = body.is_free ? Vector6{} : times_mass(known);
+  const auto held = times_mass(known);
   Response response;
   auto spin = old_velocity.rotation();
   // Gyroscopic terms belong to the spin at the instant, which depends on the acceleration sought: three corrections
@@ -179,10 +179,34 @@ RigidDynamics::Response RigidDynamics::solve(const RigidBodyState& state, const 
     spin = old_velocity.rotation() + 0.5 * instant.previous * response.acceleration.rotation();
   }
   response.spin = transpose(body.axes) * spin;
-  if (body.is_free) return response;
   const auto reaction = times_mass(response.acceleration) - load;
   for (int dof = 0; dof < 6; ++dof)
     if (body.condition[dof] != nullptr) response.reaction[dof] = reaction[dof];
+  return response;
+}
+
+/// As solve(); corrections ask for the angular acceleration alone.
+RigidDynamics::Response RigidDynamics::solve_free(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity,
+                                                  const Instant& instant) const {
+  const auto& inertia = this->inertia(body, state);
+  const auto& c = inertia.first_moment;
+  Response response;
+  Vector6 load;
+  const auto find = [&](std::size_t first) {
+    for (std::size_t i = first; i < first + 3; ++i) {
+      double sum = 0.0;
+      for (std::size_t j = 0; j < 6; ++j) sum += inertia.inverse(i, j) * load[j];
+      response.acceleration[i] = sum;
+    }
+  };
+  response.spin = old_velocity.rotation();
+  for (int correction = 0; correction < 3; ++correction) {
+    const auto& spin = response.spin;
+    load = force - pair_of(cross(spin, cross(spin, c)), cross(spin, inertia.rotary * spin));
+    find(3);
+    response.spin = old_velocity.rotation() + 0.5 * instant.previous * response.acceleration.rotation();
+  }
+  find(0);
   return response;
 }
 
@@ -209,16 +233,14 @@ double RigidDynamics::mobility(const Analysis& analysis, std::size_t index, cons
 Matrix6 RigidDynamics::response(const Analysis& analysis, std::size_t index) const {
   const auto& body = bodies_[index];
   const auto& along_axes = inertia(body, analysis.current.rigid_bodies[index]).inverse;
-  return body.axes.component == Matrix3<double>::identity().component ? along_axes : turned(transpose(body.axes), along_axes);
+  return body.is_free ? along_axes : turned(transpose(body.axes), along_axes);
 }
 
 Vector6 RigidDynamics::predicted_velocity(const Analysis& analysis, std::size_t index, const Instant& instant, const Vector6& more) const {
   const auto& body = bodies_[index];
-  const auto now = motion(analysis, body, index);
-  const auto wanted = prescribed(analysis, body, now, instant);
+  if (body.is_free) return motion_under(analysis, index, body.force + more, instant).velocity;
   const auto force = body.force + pair_of(body.axes * more.translation(), body.axes * more.rotation());
-  const auto response = solve(analysis.current.rigid_bodies[index], body, force, now.velocity, instant, wanted);
-  const auto velocity = new_velocity(body, now.velocity, response, instant, wanted);
+  const auto velocity = motion_under(analysis, index, force, instant).velocity;
   return pair_of(transpose(body.axes) * velocity.translation(), transpose(body.axes) * velocity.rotation());
 }
 

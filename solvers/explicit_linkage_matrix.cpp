@@ -1,9 +1,49 @@
 // How the gaps of a linkage change with its multipliers: the matrix, dense or sparse, its factors and corrections by them.
 #include <algorithm>
+#include <type_traits>
 
 #include "explicit_linkages.hpp"
 
 namespace balocco {
+
+namespace {
+
+/// Calls `act` with the number of columns of a mover as a constant, so that what is read many times stays in registers.
+template <class Act>
+void with_size(int size, Act act) {
+  size == 6 ? act(std::integral_constant<int, 6>()) : act(std::integral_constant<int, 3>());
+}
+
+template <int size>
+std::array<Pack, size> packs(const Lanes* lanes) {
+  std::array<Pack, size> result;
+  for (int k = 0; k < size; ++k) result[k] = lanes[k].pack();
+  return result;
+}
+
+/// answer = average * response * gradient.
+template <int size>
+void find_answer(const Matrix6& response, double average, const Lanes* gradient, Lanes* answer) {
+  const auto g = packs<size>(gradient);
+  for (int a = 0; a < size; ++a) {
+    Pack sum = response(a, 0) * g[0];
+    for (int b = 1; b < size; ++b) sum += response(a, b) * g[b];
+    answer[a].set(average * sum);
+  }
+}
+
+/// block += answer^T gradient, as many rows as the member of the answer has.
+template <int size>
+void add_product(const Lanes* answer, const Lanes* gradient, int rows, BlockSolver::Block& block) {
+  const auto g = packs<size>(gradient);
+  for (int i = 0; i < rows; ++i) {
+    Pack sum = block[i].pack();
+    for (int k = 0; k < size; ++k) sum += answer[k][i] * g[k];
+    block[i].set(sum);
+  }
+}
+
+}  // namespace
 
 void ExplicitLinkages::find_responses(const Analysis& analysis, System& system) const {
   for (auto& mover : system.movers) {
@@ -22,11 +62,7 @@ void ExplicitLinkages::find_answers(System& system, double average) const {
     Lanes* answer = member.answer.data();
     for (const auto m : member.movers) {
       const auto& mover = system.movers[m];
-      for (int a = 0; a < mover.size; ++a) {
-        Pack sum = mover.response(a, 0) * g[0].pack();
-        for (int b = 1; b < mover.size; ++b) sum += mover.response(a, b) * g[b].pack();
-        answer[a].set(average * sum);
-      }
+      with_size(mover.size, [&](auto size) { find_answer<size>(mover.response, average, g, answer); });
       g += mover.size;
       answer += mover.size;
     }
@@ -40,13 +76,9 @@ void ExplicitLinkages::find_matrix(System& system, double average) const {
     const auto rows = static_cast<int>(member.rows.size());
     for (const auto& [index, first, other_first, size, place] : member.shared) {
       const Lanes* const answer = &member.answer[first];
-      const Lanes* const g = &system.members[index].gradient[other_first];
+      const Lanes* const gradient = &system.members[index].gradient[other_first];
       auto& block = system.blocks.block(place);
-      for (int i = 0; i < rows; ++i) {
-        auto sum = block[i].pack();
-        for (int k = 0; k < size; ++k) sum += answer[k][i] * g[k].pack();
-        block[i].set(sum);
-      }
+      with_size(size, [&](auto constant) { add_product<constant>(answer, gradient, rows, block); });
     }
   }
   for (const auto& member : system.members)

@@ -66,7 +66,6 @@ void BlockSolver::lay_out(std::vector<std::int32_t> sizes, const std::vector<Pai
   blocks_.resize(column_.size());
   inverse_.resize(size_.size());
   right_.resize(size_.size());
-  scaled_.resize(size_.size());
   solution_.resize(size_.size());
 }
 
@@ -82,7 +81,7 @@ bool BlockSolver::factorize() {
   return std::ranges::all_of(pivots_, [&](const Pivot& pivot) { return eliminate(pivot); });
 }
 
-/// Row by row: what is left is D L^T.
+/// Row by row: what is left is D L^T, and behind the updates L^T.
 bool BlockSolver::eliminate(const Pivot& pivot) {
   constexpr double least_left = 1e-9;  // of what the diagonal was: next to nothing where rows depend on each other
   auto& diagonal = blocks_[pivot.first];
@@ -107,7 +106,33 @@ bool BlockSolver::eliminate(const Pivot& pivot) {
       block[a].set(sum);
     }
   }
+  for (auto b = pivot.first; b < pivot.last; ++b)
+    for (int r = 0; r < pivot.size; ++r) blocks_[b][r].set(inverse[r] * blocks_[b][r].pack());
   return true;
+}
+
+/// Rows wait for those of their own block alone, one number at a time; what they change elsewhere goes by lanes.
+void BlockSolver::substitute_forward(const Pivot& pivot) {
+  const auto& diagonal = blocks_[pivot.first];
+  auto& right = right_[pivot.unknown];
+  for (int r = 0; r < pivot.size; ++r)
+    for (int i = r + 1; i < pivot.size; ++i) right[i] -= diagonal[r][i] * right[r];
+  for (auto b = pivot.first + 1; b < pivot.last; ++b) {
+    auto& below = right_[column_[b]];
+    Pack sum = below.pack();
+    for (int r = 0; r < pivot.size; ++r) sum -= right[r] * blocks_[b][r].pack();
+    below.set(sum);
+  }
+}
+
+void BlockSolver::substitute_backward(const Pivot& pivot) {
+  const auto& diagonal = blocks_[pivot.first];
+  auto& solution = solution_[pivot.unknown];
+  solution.set(right_[pivot.unknown].pack() * inverse_[turn_[pivot.unknown]].pack());
+  for (int r = 0; r < pivot.size; ++r)
+    for (auto b = pivot.first + 1; b < pivot.last; ++b) solution[r] -= sum_of(blocks_[b][r].pack() * solution_[column_[b]].pack());
+  for (int c = pivot.size; c-- > 0;)
+    for (int r = 0; r < c; ++r) solution[r] -= diagonal[r][c] * solution[c];
 }
 
 void BlockSolver::solve(std::span<double> right) {
@@ -115,26 +140,8 @@ void BlockSolver::solve(std::span<double> right) {
     right_[i] = {};
     for (int r = 0; r < size_[i]; ++r) right_[i][r] = right[first_row_[i] + r];
   }
-  for (std::size_t turn = 0; turn < pivots_.size(); ++turn) {
-    const auto& pivot = pivots_[turn];
-    for (int r = 0; r < pivot.size; ++r) {
-      const double scaled = scaled_[turn][r] = right_[pivot.unknown][r] * inverse_[turn][r];
-      for (auto b = pivot.first; b < pivot.last; ++b) {
-        auto& below = right_[column_[b]];
-        below.set(below.pack() - scaled * blocks_[b][r].pack());
-      }
-    }
-  }
-  for (std::size_t turn = pivots_.size(); turn-- > 0;) {
-    const auto& pivot = pivots_[turn];
-    Pack solution = 0.0;
-    for (int r = pivot.size; r-- > 0;) {
-      Pack sum = blocks_[pivot.first][r].pack() * solution;
-      for (auto b = pivot.first + 1; b < pivot.last; ++b) sum += blocks_[b][r].pack() * solution_[column_[b]].pack();
-      solution = with_lane(solution, r, scaled_[turn][r] - inverse_[turn][r] * sum_of(sum));
-    }
-    solution_[pivot.unknown].set(solution);
-  }
+  for (const auto& pivot : pivots_) substitute_forward(pivot);
+  for (auto turn = pivots_.size(); turn-- > 0;) substitute_backward(pivots_[turn]);
   for (std::size_t i = 0; i < size_.size(); ++i)
     for (int r = 0; r < size_[i]; ++r) right[first_row_[i] + r] = solution_[i][r];
 }

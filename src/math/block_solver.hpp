@@ -53,13 +53,15 @@ class BlockSolver {
 
   std::vector<std::vector<std::int32_t>> eliminate(const std::vector<Pair>& pairs, std::int32_t kept);
   bool eliminate(const Pivot& pivot);
+  void substitute_forward(const Pivot& pivot);
+  void substitute_backward(const Pivot& pivot);
 
   std::vector<std::int32_t> size_, first_row_, turn_;  // by unknowns
   std::vector<Pivot> pivots_;                          // in turn
   std::vector<std::int32_t> column_;                   // by blocks: unknowns of their lanes
   std::vector<Block> blocks_;
   std::vector<Update> updates_;
-  std::vector<Lanes> inverse_, scaled_;                // by pivots: of D, and D^-1 L^-1 right
+  std::vector<Lanes> inverse_;                         // by pivots: of D
   std::vector<Lanes> right_, solution_;                // by unknowns
 };
 

@@ -14,11 +14,6 @@ struct alignas(64) Lanes {
   void set(const Pack& pack) { store(pack, lane.data()); }
 };
 
-inline Pack with_lane(Pack pack, int lane, double value) {
-  static const Pack number([](auto i) { return static_cast<double>(i); });
-  where(number == static_cast<double>(lane), pack) = value;
-  return pack;
-}
 inline double sum_of(const Pack& pack) { return std::experimental::reduce(pack); }
 
 }  // namespace balocco

@@ -74,18 +74,20 @@ inline FactoredMatrix6 factored(const Matrix6& a) {
   return result;
 }
 
-/// Q block(i, j) Q^T of each of the four blocks.
+/// Q block Q^T of each of the four blocks of a symmetric matrix.
 inline Matrix6 turned(const Matrix3<double>& q, const Matrix6& a) {
   Matrix6 result;
-  for (std::size_t bi = 0; bi < 6; bi += 3)
-    for (std::size_t bj = 0; bj < 6; bj += 3) {
-      Matrix3<double> block;
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) block(i, j) = a(bi + i, bj + j);
-      block = q * block * transpose(q);
-      for (int i = 0; i < 3; ++i)
-        for (int j = 0; j < 3; ++j) result(bi + i, bj + j) = block(i, j);
-    }
+  const auto turn = [&](std::size_t first_row, std::size_t first_column) {
+    Matrix3<double> block;
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) block(i, j) = a(first_row + i, first_column + j);
+    block = q * block * transpose(q);
+    for (int i = 0; i < 3; ++i)
+      for (int j = 0; j < 3; ++j) result(first_row + i, first_column + j) = result(first_column + j, first_row + i) = block(i, j);
+  };
+  turn(0, 0);
+  turn(3, 0);
+  turn(3, 3);
   return result;
 }
 
