@@ -53,8 +53,8 @@ class RigidDynamics {
   void rest_nodes(const Analysis& analysis, const Uses& uses);
   /// Where somebody looks: puts those nodes where their bodies are, with their velocities over the next increment.
   void bring_resting_nodes(Analysis& analysis, double increment) const;
-  /// Whether a node that turns has its orientation from a body.
-  std::vector<bool> orients() const { return orients_; }
+  /// Whether a local node that turns has its orientation from a body.
+  bool orients(std::int32_t node) const { return !orients_.empty() && orients_[node]; }
 
   /// Accelerations, reactions and their work; then the velocities of bodies and of their nodes over the next increment.
   void accelerate(Analysis& analysis, const Instant& instant, const std::vector<Point>& moments);

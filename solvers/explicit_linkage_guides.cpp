@@ -20,8 +20,7 @@ bool ExplicitLinkages::settle_guides(const Analysis& analysis, System& system, d
   for (const auto& member : system.members) {
     if (!member.is_guide) continue;
     const auto& guide = *analysis.constraints[member.constraint];
-    places_.clear();
-    for (std::size_t i = 0; i < member.nodes.size(); ++i) places_.push_back(place_after(analysis, system, member, i, next));
+    find_places_after(system, member, next);
     gaps_.resize(static_cast<std::size_t>(guide.rows()));
     guide.gaps(places_, gaps_);
     for (std::size_t i = 0; i < member.rows.size(); ++i) {

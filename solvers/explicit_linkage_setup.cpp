@@ -168,10 +168,12 @@ ExplicitLinkages::NodeUse ExplicitLinkages::use_of(const Analysis& analysis, Sys
   use.translation = body >= 0 ? mover_of(analysis, system, Mover::Kind::body, body)
                               : mover_of(analysis, system, Mover::Kind::translation, use.node);
   if (!turns) return use;
-  if (const auto turner = analysis.turning_body(use.node); turner >= 0)
+  if (const auto turner = analysis.turning_body(use.node); turner >= 0) {
     use.rotation = mover_of(analysis, system, Mover::Kind::body, turner);
-  else
+    use.stands_with_body = use.rotation == use.translation && bodies_.orients(use.node);
+  } else {
     use.rotation = mover_of(analysis, system, gyroscopic_.contains(use.node) ? Mover::Kind::gyroscopic : Mover::Kind::rotation, use.node);
+  }
   return use;
 }
 

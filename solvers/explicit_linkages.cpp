@@ -43,16 +43,28 @@ constexpr double farthest = 16.0;
 }  // namespace
 
 void ExplicitLinkages::find_places(const Analysis& analysis, System& system) const {
-  for (auto& member : system.members) {
-    if (member.cloud) {
-      member.places.assign(1, analysis.place_of(member.coupling->nodes().front()));
-    } else {
-      analysis.find_places(member.constraint, member.places);
-    }
-    for (auto& use : member.nodes)
-      if (use.carried)
-        use.arm = rotation_matrix(analysis.current.rigid_bodies[system.movers[use.translation].index]) * Vector3<double>{use.offset};
+  for (auto& mover : system.movers) {
+    if (mover.kind != Mover::Kind::body) continue;
+    const auto& state = analysis.current.rigid_bodies[mover.index];
+    mover.position = vector_of(state.position);
+    mover.rotation = rotation_matrix(state);
   }
+  for (auto& member : system.members) {
+    member.places.resize(member.nodes.size());
+    for (std::size_t i = 0; i < member.nodes.size(); ++i) {
+      auto& use = member.nodes[i];
+      member.places[i] = place_now(analysis, system, use);
+      if (use.carried) use.arm = system.movers[use.translation].rotation * vector_of(use.offset);
+    }
+  }
+}
+
+NodePlace ExplicitLinkages::place_now(const Analysis& analysis, const System& system, const NodeUse& use) const {
+  const auto row = analysis.domain.node_row[use.node];
+  if (!use.stands_with_body) return analysis.place_of(row);
+  const std::size_t at = 4 * static_cast<std::size_t>(use.node);
+  const auto& state = analysis.current;
+  return {vector_of(&state.position[at]), system.movers[use.rotation].rotation, vector_of(&state.rotation[at])};
 }
 
 void ExplicitLinkages::sum_clouds(const Analysis& analysis, const ExplicitCloud::Motion& motion, double fastest) {
@@ -81,19 +93,29 @@ void ExplicitLinkages::find_gradient(const Analysis& analysis, System& system) c
       member.coupling->reference_gradient(member.cloud->places(), member.places.front().rotation, gradient_);
     else
       constraint.gradient(member.places, gradient_);
-    std::ranges::fill(member.gradient, Lanes{});
-    for (int row = 0; row < static_cast<int>(member.rows.size()); ++row) {
-      const double* g = &gradient_[static_cast<std::size_t>(member.rows[row]) * width];
-      for (const auto& use : member.nodes) {
-        for (int c = 0; c < 3; ++c) member.gradient[use.column + c][row] += g[c];
-        if (use.carried) {
-          const auto moment = cross(use.arm, vector_of(g));
-          for (int c = 0; c < 3; ++c) member.gradient[use.column + 3 + c][row] += moment[c];
-        }
-        for (int c = 0; c < 3 && use.rotation >= 0; ++c) member.gradient[use.rotation_column + c][row] += g[3 + c];
-        g += 6;
-      }
-    }
+    take_gradient(member);
+  }
+}
+
+void ExplicitLinkages::take_gradient(Member& member) const {
+  const auto width = 6 * member.nodes.size();
+  gradient_lanes_.resize(width);
+  for (std::size_t k = 0; k < width; ++k) {
+    Lanes& lanes = gradient_lanes_[k] = {};
+    for (std::size_t row = 0; row < member.rows.size(); ++row)
+      lanes[static_cast<int>(row)] = gradient_[static_cast<std::size_t>(member.rows[row]) * width + k];
+  }
+  std::ranges::fill(member.gradient, Lanes{});
+  const auto add = [&](std::size_t column, const Vector3<Pack>& addend) {
+    for (int c = 0; c < 3; ++c) member.gradient[column + c].set(member.gradient[column + c].pack() + addend[c]);
+  };
+  const Lanes* lanes = gradient_lanes_.data();
+  for (const auto& use : member.nodes) {
+    const Vector3<Pack> force{lanes[0].pack(), lanes[1].pack(), lanes[2].pack()};
+    add(use.column, force);
+    if (use.carried) add(use.column + 3, cross(Vector3<Pack>{use.arm[0], use.arm[1], use.arm[2]}, force));
+    if (use.rotation >= 0) add(use.rotation_column, {lanes[3].pack(), lanes[4].pack(), lanes[5].pack()});
+    lanes += 6;
   }
 }
 
@@ -161,25 +183,27 @@ void ExplicitLinkages::find_velocities(const Analysis& analysis, System& system,
     if (mover.kind == Mover::Kind::translation) continue;
     const auto turn = instant.next * mover.spin();
     mover.turn = rotation_matrix(exponential(turn));
+    if (mover.kind == Mover::Kind::body) mover.rotation_after = mover.turn * mover.rotation;
     system.largest_turn = std::max(system.largest_turn, std::sqrt(dot(turn, turn)));
   }
 }
 
-NodePlace ExplicitLinkages::place_after(const Analysis& analysis, const System& system, const Member& member, std::size_t node,
-                                        double next) const {
+NodePlace ExplicitLinkages::place_after(const System& system, const Member& member, std::size_t node, double next) {
   const auto& use = member.nodes[node];
   auto place = member.places[node];
   const auto& mover = system.movers[use.translation];
   const auto path = next * mover.velocity.translation();
-  if (use.carried)
-    place.position = Vector3<double>{analysis.current.rigid_bodies[mover.index].position} + path + mover.turn * use.arm;
-  else
-    place.position = place.position + path;
+  place.position = use.carried ? mover.position + path + mover.turn * use.arm : place.position + path;
   if (use.rotation < 0) return place;
   const auto& turner = system.movers[use.rotation];
-  place.rotation = turner.turn * place.rotation;
+  place.rotation = use.stands_with_body ? turner.rotation_after : turner.turn * place.rotation;
   place.turn = place.turn + next * turner.spin();
   return place;
+}
+
+void ExplicitLinkages::find_places_after(const System& system, const Member& member, double next) const {
+  places_.resize(member.nodes.size());
+  for (std::size_t i = 0; i < places_.size(); ++i) places_[i] = place_after(system, member, i, next);
 }
 
 double ExplicitLinkages::System::rate(const Member& member, std::size_t row, Vector6 Mover::*velocity) const {
@@ -200,8 +224,7 @@ Vector6 ExplicitLinkages::System::multipliers(const Member& member) const {
 void ExplicitLinkages::find_gaps(const Analysis& analysis, System& system, const Member& member, double next) const {
   constexpr double apart = 1e-9;  // of nodes that are not in one place
   const auto& constraint = *analysis.constraints[member.constraint];
-  places_.clear();
-  for (std::size_t i = 0; i < member.nodes.size(); ++i) places_.push_back(place_after(analysis, system, member, i, next));
+  find_places_after(system, member, next);
   gaps_.resize(static_cast<std::size_t>(constraint.rows()));
   if (!member.cloud) {
     constraint.gaps(places_, gaps_);

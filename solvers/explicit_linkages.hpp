@@ -86,7 +86,10 @@ class ExplicitLinkages {
     // At the instant:
     Vector6 base;                                                 // velocity without constraint forces
     Vector6 old_velocity, velocity, load, constraint_force;
+    Vector3<double> position;                                     // of a body
+    Matrix3<double> rotation;                                     // likewise, as it stands
     Matrix3<double> turn;                                         // over the next increment, of what turns
+    Matrix3<double> rotation_after;                               // of a body
 
     Vector3<double> spin() const { return kind == Kind::body ? velocity.rotation() : velocity.translation(); }
   };
@@ -95,6 +98,7 @@ class ExplicitLinkages {
     std::int32_t node = -1;                          // local
     std::int32_t translation = -1, rotation = -1;    // movers; -1: it does not turn
     std::size_t column = 0, rotation_column = 0;     // of their velocities among those of the member
+    bool stands_with_body = false;                   // has the rotation of the body that moves and turns it
     bool carried = false;                            // by a body, at:
     Point offset{};
     Vector3<double> arm{};                           // likewise, as the body stands
@@ -182,6 +186,8 @@ class ExplicitLinkages {
   /// Of all clouds, by all ranks together. `fastest` is what no rate exceeds.
   void sum_clouds(const Analysis& analysis, const ExplicitCloud::Motion& motion, double fastest);
   void find_gradient(const Analysis& analysis, System& system) const;
+  /// From what the constraint says of its nodes (gradient_) to the velocities of movers.
+  void take_gradient(Member& member) const;
   void find_answers(System& system, double average) const;
   void find_responses(const Analysis& analysis, System& system) const;
   void find_matrix(System& system, double average) const;
@@ -214,7 +220,10 @@ class ExplicitLinkages {
   double find_residual(const Analysis& analysis, System& system, double next, bool from_rest = false) const;
   /// Gaps of a member at the end of an increment; sees to the largest turn.
   void find_gaps(const Analysis& analysis, System& system, const Member& member, double next) const;
-  NodePlace place_after(const Analysis& analysis, const System& system, const Member& member, std::size_t node, double next) const;
+  static NodePlace place_after(const System& system, const Member& member, std::size_t node, double next);
+  /// Of all nodes of a member: fills places_.
+  void find_places_after(const System& system, const Member& member, double next) const;
+  NodePlace place_now(const Analysis& analysis, const System& system, const NodeUse& use) const;
 
   const Step& step_;
   double size_ = 0.0;  // diagonal of the box around the model, which positions are as exact as
@@ -229,6 +238,7 @@ class ExplicitLinkages {
   InverseInertia inverse_;
   mutable std::vector<NodePlace> places_;          // scratch
   mutable std::vector<double> gaps_, gradient_;    // scratch
+  mutable std::vector<Lanes> gradient_lanes_;      // scratch
 };
 
 }  // namespace balocco

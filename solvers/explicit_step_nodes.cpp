@@ -134,10 +134,7 @@ void ExplicitStep::list_acting_nodes(const RigidDynamics::Uses& uses) {
 
 /// Nodes that turn, but for idle copies and those that have their orientation from a body.
 void ExplicitStep::list_drifting_nodes() {
-  const auto oriented = bodies_.orients();
-  drifting_ = find_runs(analysis_.domain.turning, [&](std::int32_t node) {
-    return (oriented.empty() || !oriented[node]) && !is_idle_copy(node);
-  });
+  drifting_ = find_runs(analysis_.domain.turning, [&](std::int32_t node) { return !bodies_.orients(node) && !is_idle_copy(node); });
 }
 
 void ExplicitStep::bring_idle_copies() {
