@@ -84,7 +84,12 @@ class ExplicitStep {
 
  private:
   Instant instant() const;
-  void add_elements(Portion portion);
+  /// Whether connectors without a law, which have no forces, are among the elements: they count turns, so they look now and then, and
+  /// where somebody else does.
+  enum class Measuring { none, too, only };
+  Measuring measuring() const;
+  bool measures_alone(const ElementGroup& group) const;
+  void add_elements(Portion portion, Measuring measuring);
   void refuse_loads_without_inertia() const;
   bool is_idle_copy(std::int32_t node) const;
   void find_neighbours();
@@ -170,6 +175,7 @@ class ExplicitStep {
   bool checked_before_landing_ = false;  // the energy balance
   bool told_folded_ = false, told_inside_out_ = false, told_short_ = false;  // by this run
   bool attention_ = true;               // the observer looks at this increment, and always at the start
+  std::vector<bool> measures_alone_;    // by element group
   bool scales_masses_ = false;          // at the end of this increment
   bool nodes_are_ahead_ = false;        // they have moved over the increment to come, and their forces are cleared
   std::int64_t cycles_ = 0;             // computed by this run, which may have been restarted in mid-step

@@ -10,16 +10,14 @@
 
 namespace balocco {
 
-namespace {
-
-/// A connector without a law has no force.
-bool measures_alone(const Model& model, const ElementGroup& group, std::int32_t element) {
-  if (model.elements[group.table()].type->section != Section::Kind::connector) return false;
-  const auto [along, about] = std::pair(group.restraint(element), group.rotary_restraint(element));
-  return along.stiffness + along.viscosity + along.force + about.stiffness + about.viscosity + about.force == 0.0;
+/// Connectors of a section are alike but for their lengths, and without a law have no force.
+bool ExplicitStep::measures_alone(const ElementGroup& group) const {
+  if (analysis_.model.elements[group.table()].type->section != Section::Kind::connector) return false;
+  const auto is_slack = [](const Restraint& restraint) { return restraint.stiffness + restraint.viscosity + restraint.force == 0.0; };
+  for (std::int32_t element = 0; element < group.size(); ++element)
+    if (!is_slack(group.restraint(element)) || !is_slack(group.rotary_restraint(element))) return false;
+  return true;
 }
-
-}  // namespace
 
 void ExplicitStep::refuse_loads_without_inertia() const {
   const Model& model = analysis_.model;
@@ -93,9 +91,11 @@ RigidDynamics::Uses ExplicitStep::uses_of_nodes() const {
   const auto push = mark(uses.pushed), ask = mark(uses.asked);
   push(loaded_nodes_);
   for (const auto& neighbour : neighbours_) push(neighbour.nodes);  // what another rank does there
-  for (const auto& group : analysis_.element_groups)
-    for (std::int32_t element = 0; element < group->size(); ++element)
-      if (group->acts(element)) (measures_alone(analysis_.model, *group, element) ? ask : push)(group->nodes(element));
+  for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index) {
+    const auto& group = *analysis_.element_groups[index];
+    for (std::int32_t element = 0; element < group.size(); ++element)
+      if (group.acts(element)) (measures_alone_[index] ? ask : push)(group.nodes(element));
+  }
   for (const auto& contact : analysis_.contacts) push(contact.nodes());
   for (const auto& contact : analysis_.mesh_contacts) push(contact.all_nodes());
   const auto& inertia = analysis_.inertia;
