@@ -5,6 +5,7 @@
 
 #include "constraints/rigid_body.hpp"
 #include "loads/body_load.hpp"
+#include "math/rotation.hpp"
 #include "step_driver.hpp"
 #include "vectors.hpp"
 
@@ -291,20 +292,14 @@ void RigidDynamics::accelerate(Analysis& analysis, const Instant& instant, const
 }
 
 void RigidDynamics::set_node_velocities(Analysis& analysis, std::size_t index, double increment, std::span<const CarriedNode> nodes) const {
-  RigidBodyState middle = {.position = {},
-                           .orientation = analysis.current.rigid_bodies[index].orientation,
-                           .velocity = analysis.current.rigid_bodies[index].velocity,
-                           .angular_velocity = analysis.current.rigid_bodies[index].angular_velocity,
-                           .rotation = {},
-                           .nodes = {}};
-  const auto spin = vector_of(middle.angular_velocity);
+  const auto& state = analysis.current.rigid_bodies[index];
+  const auto spin = vector_of(state.angular_velocity);
   const bool has_arms = nodes.size() > 1 || (nodes.size() == 1 && nodes.front().node != bodies_[index].reference);
-  if (has_arms) rotate(middle, (0.5 * increment * spin).component);
-  const auto rotation = rotation_matrix(middle);
+  const auto in_the_middle = has_arms ? rotation_matrix(turned(state.orientation, 0.5 * increment * spin)) : Matrix3<double>{};
   for (const auto& carried : nodes) {
-    const auto turning = cross(spin, rotation * vector_of(carried.offset));
-    for (int c = 0; c < 3; ++c) analysis.current.velocity[4 * carried.node + c] = middle.velocity[c] + turning[c];
-    if (carried.turns) std::ranges::copy(middle.angular_velocity, &analysis.current.angular_velocity[4 * carried.node]);
+    const auto turning = cross(spin, in_the_middle * vector_of(carried.offset));
+    for (int c = 0; c < 3; ++c) analysis.current.velocity[4 * carried.node + c] = state.velocity[c] + turning[c];
+    if (carried.turns) std::ranges::copy(state.angular_velocity, &analysis.current.angular_velocity[4 * carried.node]);
   }
 }
 

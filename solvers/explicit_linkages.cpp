@@ -190,15 +190,13 @@ void ExplicitLinkages::find_velocities(const Analysis& analysis, System& system,
 
 NodePlace ExplicitLinkages::place_after(const System& system, const Member& member, std::size_t node, double next) {
   const auto& use = member.nodes[node];
-  auto place = member.places[node];
+  const auto& place = member.places[node];
   const auto& mover = system.movers[use.translation];
   const auto path = next * mover.velocity.translation();
-  place.position = use.carried ? mover.position + path + mover.turn * use.arm : place.position + path;
-  if (use.rotation < 0) return place;
+  const auto position = use.carried ? mover.position + path + mover.turn * use.arm : place.position + path;
+  if (use.rotation < 0) return {position, place.rotation, place.turn};
   const auto& turner = system.movers[use.rotation];
-  place.rotation = use.stands_with_body ? turner.rotation_after : turner.turn * place.rotation;
-  place.turn = place.turn + next * turner.spin();
-  return place;
+  return {position, use.stands_with_body ? turner.rotation_after : turner.turn * place.rotation, place.turn + next * turner.spin()};
 }
 
 void ExplicitLinkages::find_places_after(const System& system, const Member& member, double next) const {

@@ -219,7 +219,7 @@ void ExplicitStep::add_elements(Portion portion, Measuring measuring) {
 }
 
 ExplicitStep::Measuring ExplicitStep::measuring() const {
-  constexpr std::int64_t often = 8;  // increments in which nothing turns as much as half a turn
+  constexpr std::int64_t often = 4;  // increments, in which nothing makes half a turn
   return analysis_.current.increment % often == 0 ? Measuring::too : Measuring::none;
 }
 

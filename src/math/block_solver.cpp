@@ -81,19 +81,28 @@ bool BlockSolver::factorize() {
   return std::ranges::all_of(pivots_, [&](const Pivot& pivot) { return eliminate(pivot); });
 }
 
-/// Row by row: what is left is D L^T, and behind the updates L^T.
+/// What is left is L^T: above the diagonal at once, beside it D L^T until the updates are done.
 bool BlockSolver::eliminate(const Pivot& pivot) {
   constexpr double least_left = 1e-9;  // of what the diagonal was: next to nothing where rows depend on each other
   auto& diagonal = blocks_[pivot.first];
   auto& inverse = inverse_[turn_[pivot.unknown]];
   std::array<double, pack_size> before{};
   for (int r = 0; r < pivot.size; ++r) before[r] = std::abs(diagonal[r][r]);
-  for (int r = 0; r < pivot.size; ++r) {
+  for (int r = 0; r < pivot.size; ++r) {  // one number at a time: each row waits for the one before
     if (!(std::abs(diagonal[r][r]) > least_left * before[r])) return false;
     inverse[r] = 1.0 / diagonal[r][r];
     for (int i = r + 1; i < pivot.size; ++i) {
       const double factor = diagonal[r][i] * inverse[r];
-      for (auto b = pivot.first; b < pivot.last; ++b) blocks_[b][i].set(blocks_[b][i].pack() - factor * blocks_[b][r].pack());
+      for (int j = i; j < pivot.size; ++j) diagonal[i][j] -= factor * diagonal[r][j];
+    }
+    for (int i = r + 1; i < pivot.size; ++i) diagonal[r][i] *= inverse[r];
+  }
+  for (auto b = pivot.first + 1; b < pivot.last; ++b) {
+    auto& block = blocks_[b];
+    for (int i = 1; i < pivot.size; ++i) {
+      Pack row = block[i].pack();
+      for (int r = 0; r < i; ++r) row -= diagonal[r][i] * block[r].pack();
+      block[i].set(row);
     }
   }
   for (auto u = pivot.first_update; u < pivot.last_update; ++u) {
@@ -106,7 +115,7 @@ bool BlockSolver::eliminate(const Pivot& pivot) {
       block[a].set(sum);
     }
   }
-  for (auto b = pivot.first; b < pivot.last; ++b)
+  for (auto b = pivot.first + 1; b < pivot.last; ++b)
     for (int r = 0; r < pivot.size; ++r) blocks_[b][r].set(inverse[r] * blocks_[b][r].pack());
   return true;
 }

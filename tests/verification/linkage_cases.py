@@ -80,7 +80,8 @@ ALONG
 *INITIAL CONDITIONS, TYPE=ROTATING VELOCITY
 ROTOR, {spin}
 0., 0., 0., 1., 0., 0.
-""" + explicit_step(1e-4, duration, f"*DLOAD\n, GRAV, {G}, 0., 0., -1.\n", history("OUT", "U", 0.01))
+""" + explicit_step(1e-4, duration, f"*DLOAD\n, GRAV, {G}, 0., 0., -1.\n",
+                    history("OUT", "U", 0.01) + "*ELEMENT OUTPUT, ELSET=BEARING\nCU\n")
     job = run(deck(2.0), 1)
     time, u = job.history("node_5", "U")
     a, b, _ = integrate(motion, [0.0, 0.0, 0.0], time).T
@@ -89,6 +90,8 @@ ROTOR, {spin}
     check("it precesses and nutates", float(np.ptp(a) > 1.0 and np.ptp(b) > 0.05), 1.0, 0.0)
     check("way of the rotor", np.abs(place - expected).max() / arm, 0.0, 1e-4)
     check("gap of the bearing", np.abs(u - job.history("node_4", "U")[1]).max(), 0.0, 1e-9 * arm)
+    lead = np.trapz([rate_of_turn(x) * math.sin(x) for x in b], time)  # what the arm's own turning adds
+    check("turns in the bearing", job.history("element_16", "CU")[1][-1][3] / (spin * time[-1] + lead), 1.0, 1e-5)
     check("length of the arm", np.abs(np.linalg.norm(place, axis=1) - arm).max(), 0.0, 1e-9 * arm)
     check_energy(job, 1e-3)
     early = run(deck(0.1), 2).history("node_5", "U")[1]  # whose last increment ends a bit elsewhere
