@@ -109,6 +109,7 @@ class RigidDynamics {
     Matrix3<double> axes = Matrix3<double>::identity();  // rows: directions of the degrees of freedom
     std::array<const BoundaryCondition*, 6> condition{};
     bool is_free = true;                                 // no degree of freedom is prescribed; axes are the global ones
+    bool is_centred = false;                             // and the reference node is its centre of mass
     Matrix6 free_inverse{};                              // of the inertia of a free body, body frame
     std::vector<CarriedNode> nodes;
     std::size_t pushed = 0, active = 0;  // numbers of the first of them: those that are pushed, and asked where they are; the others rest

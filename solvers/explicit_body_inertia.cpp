@@ -41,6 +41,27 @@ Matrix6 inverse_of(const Matrix6& matrix) {
   return inverse;
 }
 
+/// The block of a matrix that begins with a row and a column, times a vector.
+Vector3<double> block_product(const Matrix6& matrix, std::size_t row, std::size_t column, const Vector3<double>& vector) {
+  Vector3<double> product;
+  for (std::size_t i = 0; i < 3; ++i)
+    product[static_cast<int>(i)] =
+        matrix(row + i, column) * vector[0] + matrix(row + i, column + 1) * vector[1] + matrix(row + i, column + 2) * vector[2];
+  return product;
+}
+
+/// As turned(), where masses answer alike in all directions and only rotations turn.
+Matrix6 turned_about_centre(const Matrix3<double>& q, const Matrix6& a) {
+  Matrix6 result = a;
+  Matrix3<double> rotary;
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) rotary(i, j) = a(3 + i, 3 + j);
+  rotary = q * rotary * transpose(q);
+  for (int i = 0; i < 3; ++i)
+    for (int j = 0; j < 3; ++j) result(3 + i, 3 + j) = rotary(i, j);
+  return result;
+}
+
 }  // namespace
 
 void RigidDynamics::sum_inertia(const Analysis& analysis) {
@@ -128,7 +149,10 @@ RigidDynamics::Yielding RigidDynamics::yielding(std::size_t index) const {
   return yielding;
 }
 
-void RigidDynamics::invert_free(Body& body) const { body.free_inverse = inverse_of(mass_matrix(body.mass, body.first_moment, body.inertia)); }
+void RigidDynamics::invert_free(Body& body) const {
+  body.is_centred = body.first_moment.component == Point{};
+  body.free_inverse = inverse_of(mass_matrix(body.mass, body.first_moment, body.inertia));
+}
 
 /// Rows of prescribed degrees of freedom become identities, so that one factorisation of fixed size serves every combination.
 Matrix6 RigidDynamics::inverse(const Body& body, const Inertia& inertia) {
@@ -153,7 +177,10 @@ const RigidDynamics::Inertia& RigidDynamics::inertia(const Body& body, const Rig
   const auto turn = body.axes * rotation_matrix(state);
   now.first_moment = turn * body.first_moment;
   now.rotary = turn * body.inertia * transpose(turn);
-  now.inverse = body.is_free ? turned(turn, body.free_inverse) : inverse(body, now);
+  if (body.is_free)
+    now.inverse = body.is_centred ? turned_about_centre(turn, body.free_inverse) : turned(turn, body.free_inverse);
+  else
+    now.inverse = inverse(body, now);
   return now;
 }
 
@@ -188,25 +215,24 @@ RigidDynamics::Response RigidDynamics::solve(const RigidBodyState& state, const 
 /// As solve(); corrections ask for the angular acceleration alone.
 RigidDynamics::Response RigidDynamics::solve_free(const RigidBodyState& state, const Body& body, const Vector6& force, const Vector6& old_velocity,
                                                   const Instant& instant) const {
-  const auto& inertia = this->inertia(body, state);
-  const auto& c = inertia.first_moment;
+  const auto& [orientation, first_moment, rotary, inverse] = inertia(body, state);
+  auto linear_load = force.translation();
+  Vector3<double> angular_load, angular;
   Response response;
-  Vector6 load;
-  const auto find = [&](std::size_t first) {
-    for (std::size_t i = first; i < first + 3; ++i) {
-      double sum = 0.0;
-      for (std::size_t j = 0; j < 6; ++j) sum += inertia.inverse(i, j) * load[j];
-      response.acceleration[i] = sum;
-    }
-  };
   response.spin = old_velocity.rotation();
   for (int correction = 0; correction < 3; ++correction) {
     const auto& spin = response.spin;
-    load = force - pair_of(cross(spin, cross(spin, c)), cross(spin, inertia.rotary * spin));
-    find(3);
-    response.spin = old_velocity.rotation() + 0.5 * instant.previous * response.acceleration.rotation();
+    angular_load = force.rotation() - cross(spin, rotary * spin);
+    angular = block_product(inverse, 3, 3, angular_load);
+    if (!body.is_centred) {
+      linear_load = force.translation() - cross(spin, cross(spin, first_moment));
+      angular = angular + block_product(inverse, 3, 0, linear_load);
+    }
+    response.spin = old_velocity.rotation() + 0.5 * instant.previous * angular;
   }
-  find(0);
+  auto linear = block_product(inverse, 0, 0, linear_load);
+  if (!body.is_centred) linear = linear + block_product(inverse, 0, 3, angular_load);
+  response.acceleration = pair_of(linear, angular);
   return response;
 }
 
