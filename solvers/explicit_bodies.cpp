@@ -251,7 +251,8 @@ Vector6 RigidDynamics::prescribed(const Analysis& analysis, const Body& body, co
   return velocity;
 }
 
-RigidDynamics::NewMotion RigidDynamics::motion_under(const Analysis& analysis, std::size_t index, const Vector6& force, const Instant& instant) const {
+RigidDynamics::NewMotion RigidDynamics::motion_under(const Analysis& analysis, std::size_t index, const Vector6& force,
+                                                     const Instant& instant) const {
   const auto& body = bodies_[index];
   const auto& state = analysis.current.rigid_bodies[index];
   NewMotion result;

@@ -10,13 +10,14 @@
 
 namespace balocco {
 
-/// Connectors of a section are alike but for their lengths, and without a law have no force.
+/// The elements of a group have one section.
 bool ExplicitStep::measures_alone(const ElementGroup& group) const {
-  if (analysis_.model.elements[group.table()].type->section != Section::Kind::connector) return false;
-  const auto is_slack = [](const Restraint& restraint) { return restraint.stiffness + restraint.viscosity + restraint.force == 0.0; };
-  for (std::int32_t element = 0; element < group.size(); ++element)
-    if (!is_slack(group.restraint(element)) || !is_slack(group.rotary_restraint(element))) return false;
-  return true;
+  const Model& model = analysis_.model;
+  const auto& table = model.elements[group.table()];
+  if (table.type->section != Section::Kind::connector || group.size() == 0) return false;
+  const auto& connector = model.connectors[model.sections[table.section[group.row(0)]].connector];
+  const auto has_law = [](const auto& component) { return component.elasticity || component.damping; };
+  return std::ranges::none_of(connector.component, has_law) && connector.coupled_elasticity.empty() && connector.coupled_damping.empty();
 }
 
 void ExplicitStep::refuse_loads_without_inertia() const {
