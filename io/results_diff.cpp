@@ -145,7 +145,8 @@ void Comparison::compare_steps() {
 
 void Comparison::compare_step(const std::string& step) {
   ++steps_;
-  here_ = {.step_number = number_in(step.substr(1), "step_"), .step = fmt::format("step {} ({})", number_in(step.substr(1), "step_"), a_.text_attribute(step, "name"))};
+  const auto number = number_in(step.substr(1), "step_");
+  here_ = {.step_number = number, .step = fmt::format("step {} ({})", number, a_.text_attribute(step, "name"))};
   for (const char* attribute : {"name", "procedure"}) {
     const auto left = a_.text_attribute(step, attribute), right = b_.text_attribute(step, attribute);
     if (left != right) tell(fmt::format("{}: {} is {} in A, {} in B", step.substr(1), attribute, left, right));

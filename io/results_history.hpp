@@ -1,5 +1,5 @@
-// History: rows of chosen quantities over time (of harmonic responses over frequency), buffered in memory and appended to /step_<k>/history/<GROUP>. Where a set of one node or
-// element asks, the group's attribute `set` is that set's name.
+// History: rows of chosen quantities over time (of harmonic responses over frequency), buffered in memory and appended to
+// /step_<k>/history/<GROUP>. Where a set of one node or element asks, the group's attribute `set` is that set's name.
 #pragma once
 
 #include <cstdint>

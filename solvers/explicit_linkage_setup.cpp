@@ -13,7 +13,8 @@ namespace balocco {
 ExplicitLinkages::ExplicitLinkages(Analysis& analysis, const Step& step, const NodalConstraints& translations,
                                    const NodalConstraints& rotations, GyroscopicNodes& gyroscopic, RigidDynamics& bodies,
                                    InverseInertia& inverse)
-    : step_(step), size_(model_size(analysis.model)), translations_(translations), rotations_(rotations), gyroscopic_(gyroscopic), bodies_(bodies), guides_(analysis, step), inverse_(inverse) {
+    : step_(step), size_(model_size(analysis.model)), translations_(translations), rotations_(rotations), gyroscopic_(gyroscopic),
+      bodies_(bodies), guides_(analysis, step), inverse_(inverse) {
   moves_.assign(static_cast<std::size_t>(analysis.domain.size()), false);
   in_cloud_ = moves_;
   turns_.assign(static_cast<std::size_t>(analysis.domain.turning), false);

@@ -142,7 +142,8 @@ const RegisterKeyword element_output{
     {"ELEMENT OUTPUT",
      Phase::history,
      Place::step,
-     {name("ELSET"), variable_rule(), choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL", "NODES", "AVERAGED AT NODES"}), choice("DIRECTIONS", {"YES", "NO"})},
+     {name("ELSET"), variable_rule(), choice("POSITION", {"INTEGRATION POINTS", "CENTROIDAL", "NODES", "AVERAGED AT NODES"}),
+      choice("DIRECTIONS", {"YES", "NO"})},
      read_element_output,
      "OUTPUT"}};
 

@@ -403,7 +403,8 @@ const RegisterKeyword static_analysis{
 const RegisterKeyword dynamic{{"DYNAMIC",
                                Phase::history,
                                Place::step,
-                               {flag("EXPLICIT"), real("ALPHA"), choice("INITIAL", {"YES", "NO"}), flag("DIRECT USER CONTROL"), flag("DIRECT"), choice("APPLICATION", {"TRANSIENT FIDELITY", "MODERATE DISSIPATION"}),
+                               {flag("EXPLICIT"), real("ALPHA"), choice("INITIAL", {"YES", "NO"}), flag("DIRECT USER CONTROL"), flag("DIRECT"),
+                                choice("APPLICATION", {"TRANSIENT FIDELITY", "MODERATE DISSIPATION"}),
                                 foreign("ELEMENT BY ELEMENT"), foreign("IMPROVED DT METHOD"), foreign("GLOBAL"),
                                 foreign("SOLVER"), real("SCALE FACTOR"), real("ENERGY ERROR")},
                                read_dynamic}};

@@ -70,7 +70,8 @@ class ReducedBrick final : public ElementGroup {
       return with_moduli(reference, [&](const auto& shape) { return hourglass_energy(c, q, shape, hourglass_ != Hourglass::scalar); });
     }
     const FlowedReference<T, Reference> shape(reference, flow_, own_history, history);
-    const T elastic = hourglass_energy(hourglass_strains(c, hourglass_vectors(c, f, shape)), shape), given_up = history(own_history + HourglassFlow::dissipated);
+    const T elastic = hourglass_energy(hourglass_strains(c, hourglass_vectors(c, f, shape)), shape);
+    const T given_up = history(own_history + HourglassFlow::dissipated);
     return given_up + (flow_.failure < 0 ? elastic : select(history(flow_.failure) > 0.0, T(0.0), elastic));
   }
 
