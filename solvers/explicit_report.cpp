@@ -16,7 +16,6 @@ namespace balocco {
 void ExplicitStep::fill_output() {
   timers.measure(Phase::output, [&] {
     bodies_.bring_resting_nodes(analysis_, next_increment_);
-    for (const auto portion : {Portion::interface, Portion::interior}) add_elements(portion, Measuring::only);
     auto& acceleration = analysis_.acceleration;
     analysis_.output_increment = last_increment_ > 0.0 ? last_increment_ : next_increment_;
     std::fill(analysis_.reaction.begin(), analysis_.reaction.end(), 0.0);

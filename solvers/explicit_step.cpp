@@ -202,7 +202,7 @@ void ExplicitStep::begin_external_loads() {
   });
 }
 
-void ExplicitStep::add_elements(Portion portion, Measuring measuring) {
+void ExplicitStep::add_elements(Portion portion) {
   auto& state = analysis_.current;
   const ExplicitCycle cycle{.motion = state.motion(),
                             .forces = forces(),
@@ -211,20 +211,14 @@ void ExplicitStep::add_elements(Portion portion, Measuring measuring) {
                             .quadratic_bulk_viscosity = procedure_.quadratic_bulk_viscosity};
   for (std::size_t index = 0; index < analysis_.element_groups.size(); ++index) {
     const auto& group = *analysis_.element_groups[index];
-    if (measuring != Measuring::too && measures_alone_[index] != (measuring == Measuring::only)) continue;
     const auto stable = group.add_forces(portion, cycle, state.element_history[index]);
     if (stable.element >= 0)
       stability_.merge(stable.increment, analysis_.model.elements[group.table()].id[group.row(stable.element)]);
   }
 }
 
-ExplicitStep::Measuring ExplicitStep::measuring() const {
-  constexpr std::int64_t often = 4;  // increments, in which nothing makes half a turn
-  return analysis_.current.increment % often == 0 ? Measuring::too : Measuring::none;
-}
-
 void ExplicitStep::add_interface_elements() {
-  timers.measure(Phase::elements, [&] { add_elements(Portion::interface, measuring()); });
+  timers.measure(Phase::elements, [&] { add_elements(Portion::interface); });
 }
 
 void ExplicitStep::begin_halo() {
@@ -232,7 +226,7 @@ void ExplicitStep::begin_halo() {
 }
 
 void ExplicitStep::add_interior_elements() {
-  timers.measure(Phase::elements, [&] { add_elements(Portion::interior, measuring()); });
+  timers.measure(Phase::elements, [&] { add_elements(Portion::interior); });
 }
 
 void ExplicitStep::renew_inertia() {

@@ -84,12 +84,9 @@ class ExplicitStep {
 
  private:
   Instant instant() const;
-  /// Whether connectors without a law, which have no forces, are among the elements: they count turns, so they look now and then, and
-  /// where somebody else does.
-  enum class Measuring { none, too, only };
-  Measuring measuring() const;
+  /// Of connectors without a law, which have no forces.
   bool measures_alone(const ElementGroup& group) const;
-  void add_elements(Portion portion, Measuring measuring);
+  void add_elements(Portion portion);
   void refuse_loads_without_inertia() const;
   bool is_idle_copy(std::int32_t node) const;
   void find_neighbours();

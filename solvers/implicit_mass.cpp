@@ -72,7 +72,7 @@ void for_each_spin_inertia(const Analysis& analysis, InertiaKind kind, const Vis
   if (kind == InertiaKind::damping) return;
   const auto& domain = analysis.domain;
   for (const auto& [node, section, own] : analysis.rotary_tensors)
-    if (domain.owned[node]) visit_node(node, own);
+    if (domain.owned[node] && analysis.reference_of(node) < 0) visit_node(node, own);
   const auto& model = analysis.model;
   for (const auto& elements : model.elements) {
     if (elements.type->section != Section::Kind::rotary_inertia) continue;

@@ -9,6 +9,7 @@ namespace balocco {
 namespace {
 
 constexpr double nothing = 1e-12;   // of a mode's stiffness or inertia: what rounding leaves of their difference
+constexpr double rigid = 1e-11;     // of the stiffest mode: what rounding leaves of a stiffness that a free motion has not
 constexpr double excitation = 1e-6;  // of all forces: what rounding may leave of a force on a mode
 
 /// Modes that nothing couples: one equation each.
@@ -53,7 +54,10 @@ ModalHarmonics solve_coupled(const Eigen::MatrixXcd& dynamic, const Eigen::Vecto
 
 ModalHarmonics modal_harmonics(const ModalEquations& equations, double omega, const Eigen::VectorXcd& force) {
   const std::complex<double> i(0.0, 1.0);
-  const auto& k = equations.stiffness;
+  Eigen::VectorXd k = equations.stiffness;
+  const double least = rigid * k.cwiseAbs().maxCoeff();
+  for (double& eigenvalue : k)
+    if (std::abs(eigenvalue) < least) eigenvalue = 0.0;
   // Each mode is measured by what its stiffness or its inertia weighs, whichever is more.
   const double greatest = std::max(k.cwiseAbs().maxCoeff(), omega * omega);
   const Eigen::VectorXd scale = k.cwiseAbs().cwiseMax(omega * omega).cwiseMax(nothing * greatest).cwiseSqrt().cwiseInverse();

@@ -52,6 +52,14 @@ Eigen::VectorXd by_mode(const std::vector<ModalDamping>& given, const std::vecto
   return sums;
 }
 
+/// A step since the modes were found that has moved the state away from theirs; of linear states all is about the reference configuration.
+const Step* moving_step(const Analysis& analysis) {
+  if (analysis.current.linear) return nullptr;
+  for (auto row = analysis.step_of_modes + 1; row < analysis.current.step; ++row)
+    if (const Step& between = analysis.model.steps[row]; !between.is_perturbation()) return &between;
+  return nullptr;
+}
+
 }  // namespace
 
 std::vector<Mode> modes_of_unit_mass(const Analysis& analysis, const Step& step) {
@@ -59,6 +67,9 @@ std::vector<Mode> modes_of_unit_mass(const Analysis& analysis, const Step& step)
   if (modes.empty())
     throw AnalysisError(fmt::format("step '{}': no modes are at hand; put a *FREQUENCY step before it, and run both in one go: checkpoints keep no modes",
                                     step.name));
+  if (const Step* const between = moving_step(analysis); between != nullptr)
+    throw AnalysisError(fmt::format("step '{}': the modes at hand are those of step '{}', since which step '{}' has moved the state; repeat *FREQUENCY just before it",
+                                    step.name, analysis.model.steps[analysis.step_of_modes].name, between->name));
   for (auto& mode : modes) {
     const double size = std::sqrt(mode.generalized_mass);
     for (auto* shape : {&mode.displacement, &mode.rotation, &mode.slots})

@@ -48,7 +48,10 @@ void read_range(Builder& builder, const Block& block, const DataLine& line, Stea
   SteadyStateProcedure::Range range;
   range.lower = row.real(0, "lower frequency");
   range.upper = row.real_or(1, 0.0, "upper frequency");
-  if (const auto points = row.integer_or(2, 0, "number of points"); points >= 2) range.points = static_cast<std::int32_t>(points);
+  constexpr std::int64_t most_points = 1'000'000;
+  const auto points = row.integer_or(2, 0, "number of points");
+  if (points > most_points) row.error(fmt::format("{} points between two frequencies are more than any response needs; ask for {} at most", points, most_points));
+  if (points >= 2 && points <= most_points) range.points = static_cast<std::int32_t>(points);
   range.bias = row.real_or(3, by_range ? 1.0 : 3.0, "bias");
   range.scale = row.real_or(4, 1.0, "frequency scale factor");
   row.at_most(5);

@@ -35,7 +35,7 @@ std::string reason_against(const Model& model, const ElementType& type, const Se
   if (ElasticTable::is_in(material))
     return fmt::format("the constants of its material {} follow the temperature, which the imported state does not tell", material.name);
   if (!material.options.empty())
-    return fmt::format("its material {} yields or relaxes, for which a stress in the reference configuration does not count",
+    return fmt::format("its material {} yields or relaxes: what it remembers is of the shape before, which UPDATE=YES would forget",
                        material.name);
   if (type.nodes == 8 && type.integration_points == 1)
     return "its hourglass stiffness, which carries bending, counts from the shape that it had at first (C3D8 and C3D8I can)";

@@ -137,9 +137,11 @@ class InitiallyStrained final : public Law<kind> {
   /// The thickness is that of the beginning.
   double transverse_stretch(std::span<const double, n> strain, std::span<const double> history) const override {
     const Beginning<kind, double> begin{initial_strain(history)};
-    const std::vector<double> virgin(static_cast<std::size_t>(own_), 0.0);
-    return law_->transverse_stretch(begin.strain(values(strain)), history.first(own_)) /
-           law_->transverse_stretch(begin.strain(at_rest()), virgin);
+    const auto strain_at_rest = begin.strain(at_rest());
+    std::vector<double> own(static_cast<std::size_t>(own_), 0.0);
+    Values stress;
+    law_->tangent(strain_at_rest, 0.0, own, stress, {});
+    return law_->transverse_stretch(begin.strain(values(strain)), history.first(own_)) / law_->transverse_stretch(strain_at_rest, own);
   }
 
  private:

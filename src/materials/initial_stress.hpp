@@ -20,13 +20,13 @@ namespace balocco {
 template <PointKind kind>
 std::unique_ptr<Law<kind>> initially_stressed(std::unique_ptr<Law<kind>> law);
 
-/// The law of a material, which expands with temperature if the material does, with an initial stress where the section says so.
-/// Null as make_law.
+/// The law of a material, with an initial stress where the section says so, which it has before it expands with temperature, if the
+/// material does. Null as make_law.
 template <PointKind kind>
 std::unique_ptr<Law<kind>> law_of_section(const Material& material, const Section& section) {
   auto law = make_law<kind>(material);
-  if (law != nullptr && material.expansion) law = expanding(std::move(law));
-  return law != nullptr && section.initially_stressed ? initially_stressed(std::move(law)) : std::move(law);
+  if (law != nullptr && section.initially_stressed) law = initially_stressed(std::move(law));
+  return law != nullptr && material.expansion ? expanding(std::move(law)) : std::move(law);
 }
 
 /// Row of a law's history at which a field begins; -1 if the law has no such field.

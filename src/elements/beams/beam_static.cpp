@@ -165,13 +165,14 @@ void BeamGroup::point_output(std::string_view variable, std::int32_t element, in
   const BeamPoint& point = section_data_.points[integration_point];
   const double along = fibre_strain(strain, point), twist = point.lever * strain[5];
   const double poisson = 0.5 * section_data_.youngs_modulus / section_data_.shear_modulus - 1.0;
-  double stress = section_data_.youngs_modulus * along, shearing = section_data_.shear_modulus * twist;
+  double stress = section_data_.youngs_modulus * along, shearing = section_data_.shear_modulus * twist, thermal = 0.0;
   if (const auto& law = section_data_.law) {
     const auto of_fibre = std::span(own).subspan(fibre_row(integration_point), law->history_size());
     if (const int row = history_scalar(*law, variable); row >= 0) {
       values[0] = of_fibre[row];
       return;
     }
+    if (const int row = history_scalar(*law, "THE"); row >= 0) thermal = of_fibre[row];
     std::array<double, 2> stresses{};
     law->tangent(std::array{along + 0.5 * along * along, twist}, 0.0, of_fibre, stresses, {});
     stress = stresses[0] * (1.0 + along);
@@ -182,7 +183,7 @@ void BeamGroup::point_output(std::string_view variable, std::int32_t element, in
   } else {
     const bool is_stress = variable == "S";
     values[0] = is_stress ? stress : along;
-    if (!is_stress) values[1] = values[2] = -poisson * along;
+    if (!is_stress) values[1] = values[2] = thermal - poisson * (along - thermal);
     values[3] = is_stress ? shearing : 0.5 * twist;
   }
 }
