@@ -9,7 +9,7 @@ namespace balocco {
 namespace {
 
 constexpr double nothing = 1e-12;   // of a mode's stiffness or inertia: what rounding leaves of their difference
-constexpr double rigid = 1e-11;     // of the stiffest mode: what rounding leaves of a stiffness that a free motion has not
+constexpr double rigid = 1e-10;     // of the stiffest mode: what rounding leaves of a stiffness that a free motion has not
 constexpr double excitation = 1e-6;  // of all forces: what rounding may leave of a force on a mode
 
 /// Modes that nothing couples: one equation each.

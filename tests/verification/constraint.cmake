@@ -1,5 +1,5 @@
 # Constraints, joints and couplings against closed forms and fine integrations, in both procedures, on one rank and on more.
-verification_cases(joint 120 masses_on_links falling_chain four_bar universal_joint)
+verification_cases(joint 120 masses_on_links falling_chain four_bar universal_joint turned_fast)
 verification_cases(constraint 120 coupled_tip turned_coupling equations tied_blocks
                    welded_sheets rest_with_constraints hanging_at_rest same_bits springs_on_an_arm)
 verification_cases(connector 120 strut damped_strut struck_pendulum braked_rotor rubbing_slider slider_crank on_the_ground driven_hinge thrown_off joints_of_constraints)

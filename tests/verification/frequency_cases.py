@@ -254,6 +254,44 @@ def shaft(runner):
         close(found, scale * math.sin((2 * k - 1) * math.pi / (4 * count)), 1e-9, "mode %d" % k)
 
 
+def heavy_end(runner):
+    """A shaft twists with a rigid body at its end, whose reference node is the shaft's and has a rotary inertia: that counts once."""
+    length, radius, inertia = 10.0, 1.0, 50.0
+    deck = Deck()
+    for number, x in enumerate(((0.0, 0.0), (length, 0.0), (length, 2.0)), 1):
+        deck.add_node(number, *x, 0.0)
+    deck.elements["B31"] = [(1, (1, 2))]
+    deck.add("""*BEAM SECTION, ELSET=ALL, MATERIAL=M, SECTION=CIRC
+%g
+0., 1., 0.
+*MATERIAL, NAME=M
+*ELASTIC
+210000., 0.3
+*DENSITY
+1e-12
+*ELEMENT, TYPE=MASS, ELSET=MASS
+11, 2
+*MASS, ELSET=MASS
+2.
+*ELEMENT, TYPE=ROTARYI, ELSET=INERTIA
+12, 2
+*ROTARY INERTIA, ELSET=INERTIA
+%g, %g, %g
+*NSET, NSET=CARRIED
+3
+*RIGID BODY, REF NODE=2, TIE NSET=CARRIED
+*STEP
+*FREQUENCY
+1
+*BOUNDARY
+1, 1, 6
+2, 1, 3
+2, 5, 6
+*END STEP""" % (radius, inertia, inertia, inertia))
+    rate = 210000.0 / 2.6 * 0.5 * math.pi * radius**4 / length
+    close(frequencies(run_alike(runner, "heavy_end", deck, 1))[0], math.sqrt(rate / inertia) / (2.0 * math.pi), 1e-9, "frequency")
+
+
 def sliding(runner):
     """A block that slides on the ground sticks where it is in its modes: they are those of a block whose sole is held, but for the
     springs of the contact, ten times as stiff as a layer of bricks, and nothing is left out of its stiffness as unsymmetric."""
@@ -340,7 +378,7 @@ def held(runner):
 
 
 CASES = {case.__name__: case for case in (free_bar, string, pendulum, upside_down, bounds, free_cube, strip_stretched, strip_bent,
-                                                strip_buckled, euler_column, springs_buckled, tied_column, shaft, sliding, held)}
+                                                strip_buckled, euler_column, springs_buckled, tied_column, shaft, heavy_end, sliding, held)}
 CASES["cantilever"] = cantilever_modes
 
 if __name__ == "__main__":

@@ -44,6 +44,21 @@ ALLKE
             check(f"{kind}: stress pulled by {pull}", stress_of(job, kind, step)[0], cauchy(elastic - young * plastic), 1e-6)
 
 
+def heated(run):
+    """An initial stress of steel stands before heat comes: held and heated at once, matter has what both make, as where it is elastic."""
+    heat = "*INITIAL CONDITIONS, TYPE=STRESS\nCUBE, 3.\n*STEP{}\n*STATIC\n{}, 1.\n*BOUNDARY\nRIGHT, 1\n*TEMPERATURE\n1, 5.\n"
+    heat += "".join(f"{node}, 5.\n" for node in range(2, 9)) + FIELD + "*END STEP\n"
+    for kind, geometry, first in (("C3D8", ", NLGEOM", 1.0), ("C3D8R", ", NLGEOM", 0.1), ("C3D8", "", 1.0)):
+        both = []
+        for plastic in ("", "*PLASTIC\n10., 0.\n20., 0.2\n"):
+            job = run(CUBE.format(kind=kind, plastic="*EXPANSION\n1e-3\n" + plastic) + heat.format(geometry, first), 1)
+            both.append(stress_of(job, kind, 1)[0])
+        strain = 0.5 * (1.005**-2 - 1.0)  # Green's, of the mechanical part; S = 1000 strain + 3, free across
+        finite = (1000.0 * strain + 3.0) / 1.005 / (1.0 - 2.0 * 0.25 * strain)
+        check(f"{kind}{geometry}: stress", both[0], finite if geometry else 3.0 - 5.0, 1e-8)
+        check(f"{kind}{geometry}: of steel less of elastic matter", both[1] - both[0], 0.0, 5e-2)
+
+
 def beams(run):
     """Held, a beam pulls with what it has; let go, it shortens; of steel it yields by what lacks. Explicit steps go on at rest."""
     young, area, first = 1000.0, 0.02, 8.0

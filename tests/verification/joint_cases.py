@@ -196,5 +196,48 @@ CROSS
         check("angle of the second shaft", error, 0.0, 1e-5)
 
 
+def turned_fast(run):
+    """A hinge counts its turns, however far it turns in an increment short of half a turn, and whoever looks."""
+    for increment, ranks in ((0.003, 1), (0.02, 2)):
+        job = run(f"""*NODE
+1, 0., 0., 0.
+2, 0., 0., 0.
+*NSET, NSET=ROTOR
+2
+*ELEMENT, TYPE=MASS, ELSET=MASSES
+1, 1
+2, 2
+*MASS, ELSET=MASSES
+1.
+*ELEMENT, TYPE=ROTARYI, ELSET=INERTIAS
+3, 1
+4, 2
+*ROTARY INERTIA, ELSET=INERTIAS
+1., 1., 1.
+*ELEMENT, TYPE=CONN3D2, ELSET=BEARING
+5, 1, 2
+*ORIENTATION, NAME=AXES
+1., 0., 0., 0., 1., 0.
+*CONNECTOR SECTION, ELSET=BEARING
+HINGE,
+AXES
+*RIGID BODY, REF NODE=1
+*RIGID BODY, REF NODE=2
+*INITIAL CONDITIONS, TYPE=ROTATING VELOCITY
+ROTOR, 100.
+0., 0., 0., 1., 0., 0.
+*STEP
+*DYNAMIC, EXPLICIT, DIRECT USER CONTROL
+{increment}, 1.
+*BOUNDARY
+1, 1, 6
+*OUTPUT, HISTORY, TIME INTERVAL=0.25
+*ELEMENT OUTPUT, ELSET=BEARING
+CU
+*END STEP
+""", ranks)
+        check(f"angle after a second by {100.0 * increment:g} an increment", job.history("element_5", "CU")[1][-1][3], 100.0, 1e-9)
+
+
 if __name__ == "__main__":
-    run_case({case.__name__: case for case in (masses_on_links, falling_chain, four_bar, universal_joint)})
+    run_case({case.__name__: case for case in (masses_on_links, falling_chain, four_bar, universal_joint, turned_fast)})

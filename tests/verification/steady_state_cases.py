@@ -350,6 +350,9 @@ def unbounded(balocco, folder):
     job.run(idle)
     f, u = told(job, 2, "U1")
     check("frequencies", len(f), 9, 0.0)
+    moved = deck.replace("*STEP\n*STEADY", "*STEP, NLGEOM\n*STATIC\n1., 1.\n*CLOAD\n2, 1, 1.\n*END STEP\n*STEP\n*STEADY")
+    assert moved != deck
+    check("modes of another state", "has moved the state" in Job("moved", balocco, "1", folder).run(moved, expected_status=3), True, 0.0)
     check("beside the mode across", worst(u, 1.0 / (STIFFNESS - MASS * (2.0 * math.pi * f) ** 2)), 0.0, 1e-9)
 
 
