@@ -10,6 +10,7 @@
 #include "deck/geometry.hpp"
 #include "deck/interactions.hpp"
 #include "deck/register.hpp"
+#include "deck/steady_state.hpp"
 #include "deck/text.hpp"
 #include "elements/element_type.hpp"
 #include "elements/surface_nodes.hpp"
@@ -188,6 +189,7 @@ void change_elements(Builder& builder, const Block& block) {
 
 void read_model_change(Builder& builder, const Block& block) {
   if (block.has("ADD") == block.has("REMOVE")) return builder.error(block, block.location, "give either ADD or REMOVE");
+  refuse_in_harmonics(builder, block, "the modes are those of the model that *FREQUENCY found; change it in a step before that one");
   if (block.value("TYPE") == "ELEMENT") return change_elements(builder, block);
   auto& active = builder.model.steps.back().active_contact_pairs;
   for (const auto& line : block.lines) {

@@ -16,8 +16,6 @@ namespace balocco {
 
 namespace {
 
-constexpr int component_of[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
-
 /// What a law is asked for and what its answer means, where it has begun with the strain `initial`.
 template <PointKind kind, class T>
 struct Beginning {
@@ -196,8 +194,8 @@ class InitiallyStrained final : public Law<kind> {
   /// The strain with which the law begins, by Newton's method: strains of metals are small, and so is what a tangent by F leaves of the
   /// exact one by a symmetric strain.
   Initial initial_strain(std::span<const double> history) const {
-    constexpr int most_iterations = 12;
-    constexpr double accuracy = 1e-14;
+    constexpr int most_iterations = 12, first_slow = 3;
+    constexpr double accuracy = 1e-14, round_off = 1e-10;
     Beginning<kind, double> begin{};
     const auto wanted = history.subspan(own_, size), known = history.subspan(own_ + size, size);
     if (is_zero(wanted)) return begin.initial;
@@ -205,7 +203,7 @@ class InitiallyStrained final : public Law<kind> {
       std::ranges::copy(known, begin.initial.begin());
       return begin.initial;
     }
-    Initial first{};
+    Initial elastic{};  // of the stiffness at rest: of a stress that the law will not let stand
     double before = std::numeric_limits<double>::infinity();
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       std::vector<double> own(history.begin(), history.begin() + own_);
@@ -216,14 +214,14 @@ class InitiallyStrained final : public Law<kind> {
       for (int k = 0; k < size; ++k) lacking[k] = wanted[k] - lacking[k];
       const double left = norm(lacking);
       if (left <= accuracy * norm(wanted)) return begin.initial;
-      if (iteration > 2 && left > 0.5 * before) return left <= 1e-10 * norm(wanted) ? begin.initial : first;
+      if (iteration >= first_slow && left > 0.5 * before) return left <= round_off * norm(wanted) ? begin.initial : elastic;
       before = left;
       const auto modulus = symmetric(stiffness);
       solve_dense(modulus.component, lacking, 1);
       for (int k = 0; k < size; ++k) begin.initial[k] += lacking[k];
-      if (iteration == 0) first = begin.initial;
+      if (iteration == 0) elastic = begin.initial;
     }
-    return first;
+    return elastic;
   }
 
   static Initial symmetric(const Values& stress) {
@@ -237,7 +235,7 @@ class InitiallyStrained final : public Law<kind> {
       for (int i = 0; i < 3; ++i)
         for (int j = i; j < 3; ++j)
           for (int k = 0; k < 3; ++k)
-            for (int l = 0; l < 3; ++l) result(component_of[i][j], component_of[k][l]) += stiffness(3 * i + j, 3 * k + l);
+            for (int l = 0; l < 3; ++l) result(initial_stress_component[i][j], initial_stress_component[k][l]) += stiffness(3 * i + j, 3 * k + l);
       return result;
     } else {
       return stiffness;

@@ -20,4 +20,7 @@ std::unique_ptr<Law<kind>> initially_strained(std::unique_ptr<Law<kind>> law);
 /// Components of an initial stress: solids 11 22 33 12 13 23, plane 11 22 12, line 11, fibre 11 12.
 constexpr int initial_stress_size(PointKind kind) { return kind == PointKind::solid ? 6 : strain_size(kind); }
 
+/// Which of them is component ij of a solid's.
+inline constexpr int initial_stress_component[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
+
 }  // namespace balocco

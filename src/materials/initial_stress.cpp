@@ -12,7 +12,6 @@ namespace balocco {
 namespace {
 
 constexpr std::array<std::pair<int, int>, 6> symmetric_pairs{{{0, 0}, {1, 1}, {2, 2}, {0, 1}, {0, 2}, {1, 2}}};
-constexpr int component_of[3][3] = {{0, 3, 4}, {3, 1, 5}, {4, 5, 2}};
 
 template <PointKind kind>
 class InitiallyStressed final : public Law<kind> {
@@ -60,7 +59,7 @@ class InitiallyStressed final : public Law<kind> {
     if constexpr (kind == PointKind::solid)
       for (int i = 0; i < 3 && !stiffness.empty(); ++i)
         for (int j = 0; j < 3; ++j)
-          for (int k = 0; k < 3; ++k) stiffness[n * (3 * i + j) + 3 * i + k] += initial[component_of[k][j]];
+          for (int k = 0; k < 3; ++k) stiffness[n * (3 * i + j) + 3 * i + k] += initial[initial_stress_component[k][j]];
   }
 
   EnergyDensity energy_density(std::span<const double, n> strain, std::span<const double> history) const override {
@@ -89,7 +88,7 @@ class InitiallyStressed final : public Law<kind> {
     if constexpr (kind == PointKind::solid) {
       for (int i = 0; i < 3; ++i)
         for (int j = 0; j < 3; ++j)
-          for (int k = 0; k < 3; ++k) stress[3 * i + j] = stress[3 * i + j] + strain[3 * i + k] * initial[component_of[k][j]];
+          for (int k = 0; k < 3; ++k) stress[3 * i + j] = stress[3 * i + j] + strain[3 * i + k] * initial[initial_stress_component[k][j]];
     } else {
       for (int k = 0; k < n; ++k) stress[k] = stress[k] + initial[k];
     }
